@@ -30,7 +30,7 @@ class TriangleHashOf {
  public:
   using Real = T;
   static constexpr const char* kName = "spatial-hash";
-  static constexpr const char* kVisitedUnit = "bucket entries";
+  static constexpr const char* kVisitedUnit = "box comparisons";
   static constexpr bool kBoxesOverlap = true;
 
   explicit TriangleHashOf(const TriangleHashSettings& settings) : settings_(settings) {}

@@ -38,7 +38,7 @@ struct StageRecord {
   std::string unit;  ///< what `in` and `out` count: "body pairs", "sphere pairs", ...
   std::uint64_t in = 0;
   std::uint64_t out = 0;
-  /// What the stage looked at ("node pairs", "bucket entries"); empty unit: not counted.
+  /// What the stage looked at ("node pairs", "box comparisons"); empty unit: not counted.
   std::uint64_t visited = 0;
   std::string visited_unit;
   Kind kind = Kind::kBodies;

@@ -37,6 +37,7 @@ inline constexpr std::array kFineToCoarse = {
     Level::kTriangle, Level::kNear,       Level::kVertex,     Level::kCell,     Level::kBox,
     Level::kSelf,     Level::kSelfVertex, Level::kSelfEdge,   Level::kSelfNear, Level::kSelfCell,
     Level::kSelfBody, Level::kBody,       Level::kContainment};
+static_assert(kFineToCoarse.size() == kLevels.size(), "each level has its place");
 /// The classes of pairs of one body's triangles.
 inline constexpr std::array kSelfClasses = {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge};
 /// True for levels of contact of a body with itself.

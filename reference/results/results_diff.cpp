@@ -18,17 +18,16 @@ bool usable(const Ratio& r) { return r.low > 0.0 && r.value > 0.0 && r.high > 0.
 
 using Speedups = std::map<std::string, results::Speedup>;
 
-// In the question that most detectors can be asked.
-const Speedups* compared_speedups(const results::Run& run) {
-  for (const Question question : {Question::kTriangles, Question::kBody, Question::kContacts,
-                                  Question::kCells, Question::kSelf})
-    if (const auto it = run.speedup.find(question); it != run.speedup.end()) return &it->second;
-  return nullptr;
-}
-
 std::optional<TimeChange> change_of(const results::Run& was, const results::Run& is) {
-  const Speedups *before = compared_speedups(was), *after = compared_speedups(is);
-  if (before == nullptr || after == nullptr) return std::nullopt;
+  const Speedups *before = nullptr, *after = nullptr;
+  for (const Question question : kQuestions) {  // the first that both were timed in
+    const auto then = was.speedup.find(question), now = is.speedup.find(question);
+    if (then == was.speedup.end() || now == is.speedup.end()) continue;
+    before = &then->second;
+    after = &now->second;
+    break;
+  }
+  if (after == nullptr) return std::nullopt;
   for (const auto& [reference, now] : *after) {
     if (reference == is.detector) continue;
     const auto then = before->find(reference);

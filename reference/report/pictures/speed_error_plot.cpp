@@ -30,6 +30,8 @@ constexpr QuestionShape kShapes[] = {
     {Question::kContacts, "M0-6L4 0L0 6L-4 0Z", "timed: contacts with depth and normal"},
     {Question::kSelf, "M0 5.5L5.5-4.5h-11Z", "timed: contacts of bodies with themselves"}};
 
+static_assert(std::size(kShapes) == kQuestions.size(), "each question has a shape");
+
 const QuestionShape& shape_of(Question question) {
   return *std::find_if(std::begin(kShapes), std::end(kShapes),
                        [&](const QuestionShape& shape) { return shape.question == question; });

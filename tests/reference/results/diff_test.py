@@ -35,9 +35,9 @@ def failed(status="error", message="signal 11", detector="d"):
     return {"scene": "s", "detector": detector, "status": status, "message": message}
 
 
-def speedup(value, low, high, passes=5, reference="fcl-aabb"):
+def speedup(value, low, high, passes=5, reference="fcl-aabb", question="triangles"):
     parts = SAMPLE["runs"][0]["speedup"]["triangles"]["ref"]
-    return {"speedup": {"triangles": {reference: {
+    return {"speedup": {question: {reference: {
         **parts, "playback": {"ratio": value, "low": low, "high": high}, "passes": passes,
         "interval": "95 %" if passes >= 5 else "range"}}}}
 
@@ -251,3 +251,14 @@ def test_largest_change_comes_first(diff):
     after = [row("slow", **speedup(2, 2, 2)), row("slower", **speedup(1, 1, 1))]
     assert diff(before, after).startswith("Slower (2)\n  s  slower  4.00x [4.00, 4.00] slower, measured "
                                           "against fcl-aabb\n  s  slow  2.00x [")
+
+
+@pytest.mark.parametrize("question", ["body", "cells", "contacts", "self"])
+def test_times_are_compared_in_one_question(diff, question):
+    # Of two runs that were timed in different questions, the ratios were set against each other.
+    before, after = speedup(1, 1, 1), speedup(3, 2, 4.5, question=question)
+    assert diff([row(**before)], [row(**after)]) == f"1 of 1 common rows have the same answers; {NO_TIMES}"
+    both = {"speedup": {**before["speedup"], **after["speedup"]}}
+    same = speedup(1, 1, 1, question=question)
+    assert "3.00x [2.00, 4.50] faster" in diff([row(**same)], [row(**after)])
+    assert "faster" not in diff([row(**both)], [row(**before)])

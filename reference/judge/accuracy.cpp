@@ -92,31 +92,6 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
 
 namespace {
 
-// The question whose answer a list is judged by. Depths and normals are those of `contacts`.
-Question question_about(ContactList list, const Semantics& semantics) {
-  switch (list) {
-    case ContactList::kBodies:
-      return question_of(Level::kBody, semantics);
-    case ContactList::kCells:
-      return question_of(Level::kCell, semantics);
-    case ContactList::kTriangles:
-      return question_of(Level::kTriangle, semantics);
-    case ContactList::kVertices:
-      return question_of(Level::kVertex, semantics);
-    case ContactList::kNear:
-      return question_of(Level::kNear, semantics);
-    case ContactList::kSelfBodies:
-    case ContactList::kSelf:
-    case ContactList::kSelfCells:
-    case ContactList::kSelfNear:
-      return question_of(Level::kSelf, semantics);
-    case ContactList::kPieceContacts:
-    case ContactList::kVertexContacts:
-      return Question::kContacts;
-  }
-  return semantics.questions.front();
-}
-
 // Only vertices are fed in single precision: the truth of cells and boxes is made of nodes.
 RoundedScene* rounded_scene(JudgingTools& tools, const Detector& detector,
                             const Semantics& semantics) {

@@ -31,19 +31,9 @@ bool is_compared(ContactList list, const Asked& asked) {
     case ContactList::kTriangles:
       return asked.question != Question::kBody &&
              (asked.own || asked.question != Question::kContacts);
-    case ContactList::kVertices:
-    case ContactList::kNear:
-      return asked.vertices;
-    case ContactList::kSelfBodies:
-    case ContactList::kSelf:
-    case ContactList::kSelfCells:
-    case ContactList::kSelfNear:
-      return asked.question == Question::kSelf;
-    case ContactList::kPieceContacts:
-    case ContactList::kVertexContacts:
-      return asked.question == Question::kContacts;
+    default:
+      return asked.about[static_cast<std::size_t>(list)];
   }
-  return false;
 }
 
 void feed(std::uint32_t body, Fnv1a& hash) { hash.value(body); }
@@ -86,8 +76,10 @@ std::string count_difference(std::size_t list, std::uint64_t answered, std::uint
 }  // namespace
 
 Asked asked(Question question, const Semantics& semantics) {
-  return {question, question == semantics.questions.front(),
-          question == question_of(Level::kVertex, semantics)};
+  Asked out{question, question == semantics.questions.front()};
+  for (std::size_t list = 0; list < kContactLists; ++list)
+    out.about[list] = question_about(static_cast<ContactList>(list), semantics) == question;
+  return out;
 }
 
 AnswerFingerprint fingerprint_of(const ContactSet& contacts, const Asked& asked) {

@@ -19,8 +19,8 @@ using ListNumbers = std::array<std::uint64_t, kContactLists>;
 /// A question, and how much of its answer is judged.
 struct Asked {
   Question question = Question::kTriangles;
-  bool own = true;      ///< the detector's first
-  bool vertices = own;  ///< judged at the levels of vertices, too
+  bool own = true;                             ///< the detector's first
+  std::array<bool, kContactLists> about = {};  ///< lists that are judged by this answer
 };
 Asked asked(Question question, const Semantics& semantics);
 

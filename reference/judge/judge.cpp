@@ -198,11 +198,37 @@ Question question_of(Level level, const Semantics& semantics) {
   return Question::kBody;
 }
 
+Question question_about(ContactList list, const Semantics& semantics) {
+  switch (list) {
+    case ContactList::kBodies:
+      return question_of(Level::kBody, semantics);
+    case ContactList::kCells:
+      return question_of(Level::kCell, semantics);
+    case ContactList::kTriangles:
+      return question_of(Level::kTriangle, semantics);
+    case ContactList::kVertices:
+      return question_of(Level::kVertex, semantics);
+    case ContactList::kNear:
+      return question_of(Level::kNear, semantics);
+    case ContactList::kSelfBodies:
+    case ContactList::kSelf:
+    case ContactList::kSelfCells:
+    case ContactList::kSelfNear:
+      return question_of(Level::kSelf, semantics);
+    case ContactList::kPieceContacts:
+    case ContactList::kVertexContacts:
+      return Question::kContacts;
+  }
+  return semantics.questions.front();
+}
+
 TrueNear true_near(oracle::Oracle& oracle, const Frame& frame, const std::vector<Level>& levels,
                    double margin) {
   TrueNear out;
-  if (contains(levels, Level::kNear)) out.near = oracle.near(frame, margin);
-  if (contains(levels, Level::kSelfNear)) out.self_near = oracle.self_near(frame, margin);
+  for (const Level level : levels) {
+    if (level == Level::kNear) out[level] = oracle.near(frame, margin);
+    if (level == Level::kSelfNear) out[level] = oracle.self_near(frame, margin);
+  }
   return out;
 }
 
@@ -258,10 +284,10 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
       compare(truth.surface.vertices, reported.vertices);
       break;
     case Level::kNear:
-      compare(near.near, reported.near);
+      compare(near.at(level), reported.near);
       break;
     case Level::kSelfNear:
-      compare(near.self_near, reported.self_near);
+      compare(near.at(level), reported.self_near);
       break;
     case Level::kSelf:
     case Level::kSelfVertex:

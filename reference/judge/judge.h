@@ -79,6 +79,8 @@ std::vector<SelfPair> pairs_of_cells_apart(const std::vector<Body>& bodies,
 /// `cells`, `self`) where the detector answers that. Else its first but `body`, which may end
 /// early; else `body`.
 Question question_of(Level level, const Semantics& semantics);
+/// The question whose answer a list is judged by. Depths and normals are those of `contacts`.
+Question question_about(ContactList list, const Semantics& semantics);
 
 /// An answer to one frame compared with the ground truth at one level.
 struct LevelComparison {
@@ -87,11 +89,9 @@ struct LevelComparison {
   std::vector<ElementPair> missed, spurious;
 };
 
-/// Pairs nearer than a margin, of two bodies and of one.
-struct TrueNear {
-  std::vector<NearPair> near, self_near;
-};
-/// Of those of `levels` that ask for them. `margin`: in the coordinates of the frame.
+/// Pairs nearer than a margin, for each level that has one.
+using TrueNear = std::map<Level, std::vector<NearPair>>;
+/// The pairs of those of `levels` that have a margin. `margin`: in the coordinates of the frame.
 TrueNear true_near(oracle::Oracle& oracle, const Frame& frame, const std::vector<Level>& levels,
                    double margin);
 

@@ -11,6 +11,7 @@
 #include "reference/text/counted.h"
 #include "reference/text/json_field.h"
 #include "reference/text/json_value.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::reduce {
 namespace {

@@ -14,6 +14,7 @@
 #include "reference/scene/sweep_poses.h"
 #include "reference/text/file_text.h"
 #include "reference/text/json_field.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::reduce {
 namespace {

@@ -30,8 +30,7 @@ void fields(Io& io, AnswerFingerprint& print) {
 
 template <typename Io>
 void fields(Io& io, JudgedQuestion& judged) {
-  io("question", judged.question);
-  io("frames", judged.frames);
+  CONTACTCHECK_FIELDS(io, judged, question, frames);
 }
 
 }  // namespace contactcheck::judge
@@ -61,18 +60,8 @@ using text::Json;
 
 template <typename Io>
 void fields(Io& io, RunSettings& s) {
-  io("detectors", s.detectors);
-  io("plugins", s.plugins);
-  io("frames", s.frames);
-  io("processes", s.processes);
-  io("one_pass_beyond", s.one_pass_beyond);
-  io("seed", s.seed);
-  io("step_repeats", s.step_repeats);
-  io("timing", s.timing);
-  io("closed_loop", s.closed_loop);
-  io("threads", s.threads);
-  io("call_limit", s.call_limit);
-  io("memory_limit", s.memory_limit);
+  CONTACTCHECK_FIELDS(io, s, detectors, plugins, frames, processes, one_pass_beyond, seed,
+                      step_repeats, timing, closed_loop, threads, call_limit, memory_limit);
 }
 
 static auto elements(Unjudged& unjudged) { return std::tie(unjudged.why, unjudged.frame); }
@@ -80,39 +69,25 @@ static auto elements(Turn& turn) { return std::tie(turn.position, turn.question,
 
 template <typename Io>
 void fields(Io& io, Job& job) {
-  io("scene", job.scene);
-  io("settings", job.settings);
-  io("skip", job.skip);
-  io("unjudged", job.unjudged);
-  io("turns", job.turns);
-  io("cold_frames", job.cold_frames);
-  io("answers", job.answers);
-  io("answer_file", job.answer_file);
-  io("recording_file", job.recording_file);
-  io("temporary", job.temporary);
+  CONTACTCHECK_FIELDS(io, job, scene, settings, skip, unjudged, turns, cold_frames, answers,
+                      answer_file, recording_file, temporary);
 }
 
 template <typename Io>
 void fields(Io& io, DetectorAnswer& answer) {
-  io("position", answer.position);
-  io("answers", answer.answers);
+  CONTACTCHECK_FIELDS(io, answer, position, answers);
 }
 
 template <typename Io>
 void fields(Io& io, TurnAnswer& answer) {
-  io("turn", answer.turn);
-  io("error", answer.error);
-  io("failed_frame", answer.failed_frame);
-  io("lazy_map", answer.lazy_map);
+  CONTACTCHECK_FIELDS(io, answer, turn, error, failed_frame, lazy_map);
   io("frames", answer.samples);
   io("notes", answer.notes);
 }
 
 template <typename Io>
 void fields(Io& io, SceneAnswer& answer) {
-  io("contact_frames", answer.contact_frames);
-  io("detectors", answer.detectors);
-  io("timed", answer.timed);
+  CONTACTCHECK_FIELDS(io, answer, contact_frames, detectors, timed);
 }
 
 // Texts of libraries may hold anything; JSON takes UTF-8 alone.

@@ -3,6 +3,8 @@
 //
 //   io("key", member)            always written; missing leaves it as it is
 //   io.unless_empty("key", m)    written when it has a value, an element, a character
+//   CONTACTCHECK_FIELDS(io, value, a, b, c)               io("a", value.a); and so on
+//   CONTACTCHECK_FIELDS(io.unless_empty, value, a, b, c)
 //
 // A short struct may be an array instead: elements(value) is the std::tie of its members. A variant
 // is an array of its index and its value, one of a count and a text the value alone. A description
@@ -40,6 +42,22 @@ constexpr std::array<Precision, 2> values_of(Precision) {
 inline auto elements(BodyPair& pair) { return std::tie(pair.a, pair.b); }
 
 }  // namespace contactcheck
+
+// Up to 64 members: the preprocessor rescans its result as often as EXPAND has it.
+#define CONTACTCHECK_FIELDS(io, value, ...) \
+  CONTACTCHECK_EXPAND(CONTACTCHECK_FIELD(io, value, __VA_ARGS__))
+#define CONTACTCHECK_FIELD(io, value, name, ...) \
+  io(#name, value.name);                         \
+  __VA_OPT__(CONTACTCHECK_NEXT_FIELD CONTACTCHECK_PARENS(io, value, __VA_ARGS__))
+#define CONTACTCHECK_NEXT_FIELD() CONTACTCHECK_FIELD
+#define CONTACTCHECK_PARENS ()
+#define CONTACTCHECK_EXPAND(...) \
+  CONTACTCHECK_EXPAND_4(CONTACTCHECK_EXPAND_4(CONTACTCHECK_EXPAND_4(__VA_ARGS__)))
+#define CONTACTCHECK_EXPAND_4(...) \
+  CONTACTCHECK_EXPAND_3(CONTACTCHECK_EXPAND_3(CONTACTCHECK_EXPAND_3(__VA_ARGS__)))
+#define CONTACTCHECK_EXPAND_3(...) \
+  CONTACTCHECK_EXPAND_2(CONTACTCHECK_EXPAND_2(CONTACTCHECK_EXPAND_2(__VA_ARGS__)))
+#define CONTACTCHECK_EXPAND_2(...) __VA_ARGS__
 
 namespace contactcheck::text {
 

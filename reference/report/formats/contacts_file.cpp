@@ -14,13 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "contactcheck-contacts/1";
 
-// `missed` and `spurious` at a level are explained in fixtures/README.md, "Contacts".
-NamedElements elements_at(const std::string& level, bool missed) {
-  const std::optional<Level> known = level_from_name(level);
-  if (!known) throw InputError("the level \"" + level + "\" is not known");
-  return named_elements(*known, missed);
-}
-
 // Vertices are numbered as they were given.
 std::int64_t element_count(const BodyShape& shape, Element kind) {
   switch (kind) {
@@ -69,6 +62,13 @@ void check_contacts(const Json& contacts, const Recording& recording) {
 }
 
 }  // namespace
+
+// `missed` and `spurious` at a level are explained in fixtures/README.md, "Contacts".
+NamedElements elements_at(const std::string& level, bool missed) {
+  const std::optional<Level> known = level_from_name(level);
+  if (!known) throw InputError("the level \"" + level + "\" is not known");
+  return named_elements(*known, missed);
+}
 
 void visit_elements(
     const Json& contacts,

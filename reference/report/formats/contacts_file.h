@@ -18,6 +18,9 @@ namespace contactcheck::report {
 nlohmann::ordered_json read_contacts(const std::string& text, const std::string& name,
                                      const Recording& recording);
 
+/// What the numbers of a missed or spurious pair count. @throws InputError for an unknown level
+NamedElements elements_at(const std::string& level, bool missed);
+
 /// Calls with both elements of every listed pair, true ones first.
 /// @throws Json::exception or InputError where a field is missing, of another type or unknown
 void visit_elements(

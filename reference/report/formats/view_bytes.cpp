@@ -51,6 +51,17 @@ double half_size(const Aabb& box) {
   return box.empty() ? 0.0 : (0.5 * box.hi - 0.5 * box.lo).maxCoeff();
 }
 
+// A contact without elements names bodies; what a vertex alone lies in has no place of its own.
+Json words_of(const NamedElements& named) {
+  constexpr const char* kWords[] = {"triangle", "cell", "vertex", "body"};
+  const bool bodies = named.first == Element::kNone;
+  const auto word = [&](Element element) {
+    return element == Element::kNone && !bodies ? "nothing"
+                                                : kWords[static_cast<std::size_t>(element)];
+  };
+  return {word(named.first), word(named.second)};
+}
+
 Placement around(const Aabb& box) {
   const double half = half_size(box);
   if (!(half > 0.0)) return {box.empty() ? Vec3(Vec3::Zero()) : box.center(), 1.0};
@@ -248,7 +259,14 @@ SceneView scene_view(const Recording& recording, const Json& contacts, const Kep
                  {"placements", std::move(placed)},
                  {"nodes", add_points(nodes, arrays)},
                  {"truth", contacts.is_null() ? Json::array() : contacts.at("truth")},
-                 {"detectors", contacts.is_null() ? Json::array() : contacts.at("detectors")}};
+                 {"detectors", Json::array()}};
+  if (!contacts.is_null())
+    for (Json detector : contacts.at("detectors")) {
+      const auto level = detector.at("level").get<std::string>();
+      detector["elements"] = {{"missed", words_of(elements_at(level, true))},
+                              {"spurious", words_of(elements_at(level, false))}};
+      header["detectors"].push_back(std::move(detector));
+    }
   align(arrays, '\0');
   return {std::move(header), std::move(arrays)};
 }

@@ -7,9 +7,15 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Asked kOwnTriangles = {Question::kTriangles, true};
-constexpr Asked kBodyBeside = {Question::kBody, false};
-constexpr Asked kContactsBeside = {Question::kContacts, false};
+// A detector's questions, the last of which is asked.
+Asked asked_last(std::vector<Question> questions) {
+  Semantics semantics;
+  semantics.questions = questions;
+  return asked(questions.back(), semantics);
+}
+const Asked kOwnTriangles = asked_last({Question::kTriangles});
+const Asked kBodyBeside = asked_last({Question::kTriangles, Question::kBody});
+const Asked kContactsBeside = asked_last({Question::kTriangles, Question::kContacts});
 
 ContactSet two_triangles() {
   ContactSet set;

@@ -200,8 +200,9 @@ TEST(Judge, SelfNearComparesWithThePairsOfOneBody) {
   answer.self_near = {{0, 0, 7, 2}, {1, 1, 7, 4}};
   answer.canonicalize();
   EXPECT_THAT(answer.self_bodies, ElementsAre(0, 1));
-  test::add_frame(totals, semantics, 0, oracle::Truth{}, answer,
-                  {.near = {{0, 1, 5, 2}}, .self_near = {{0, 0, 7, 2}, {0, 0, 8, 2}}});
+  test::add_frame(
+      totals, semantics, 0, oracle::Truth{}, answer,
+      {{Level::kNear, {{0, 1, 5, 2}}}, {Level::kSelfNear, {{0, 0, 7, 2}, {0, 0, 8, 2}}}});
   EXPECT_THAT(numbers(totals.levels.at(Level::kSelfNear)), ElementsAre(2, 2, 1, 1, 1));
   EXPECT_EQ(totals.levels.at(Level::kSelfNear).margin, 0.25);
   EXPECT_EQ(totals.per_frame.level, Level::kSelfNear);
@@ -227,7 +228,7 @@ TEST(Judge, NearLevelComparesWithThePairsBelowTheMargin) {
   answer.near = {{0, 1, 5, 2}, {1, 0, 5, 2}};
   answer.canonicalize();
   test::add_frame(totals, {}, 0, oracle::Truth{}, answer,
-                  {.near = {{0, 1, 5, 2}, {0, 1, 5, 3}, {1, 2, 5, 2}}, .self_near = {}});
+                  {{Level::kNear, {{0, 1, 5, 2}, {0, 1, 5, 3}, {1, 2, 5, 2}}}});
   EXPECT_THAT(numbers(totals.levels.at(Level::kNear)), ElementsAre(3, 2, 1, 2, 1));
   EXPECT_EQ(totals.per_frame.level, Level::kNear);
   ASSERT_EQ(totals.disagreements.size(), 2u);

@@ -94,6 +94,35 @@ Corners corners_in(const std::vector<double>& cell_nodes, const std::vector<doub
   return out;
 }
 
+TEST_F(ViewBytes, SaysWhatThePairsOfEachLevelCount) {
+  std::string detectors;
+  for (const Level level : kLevels)
+    detectors += std::string(detectors.empty() ? "" : ", ") + R"({"detector": "d", "level": ")" +
+                 name_of(level) + R"(", "frames": []})";
+  scratch_.write("levels.json", R"({"schema": "contactcheck-contacts/1", "scene": "boxes",
+      "limit": 500, "truth": [], "detectors": [)" +
+                                    detectors + "]}");
+  const std::map<std::string, std::string> others = {
+      {"body", R"({"missed":["body","body"],"spurious":["body","body"]})"},
+      {"containment", R"({"missed":["body","body"],"spurious":["body","body"]})"},
+      {"self-body", R"({"missed":["body","body"],"spurious":["body","body"]})"},
+      {"cell", R"({"missed":["triangle","triangle"],"spurious":["cell","cell"]})"},
+      {"self-cell", R"({"missed":["triangle","triangle"],"spurious":["cell","cell"]})"},
+      {"box", R"({"missed":["cell","cell"],"spurious":["cell","cell"]})"},
+      {"vertex", R"({"missed":["vertex","nothing"],"spurious":["vertex","nothing"]})"},
+      {"near", R"({"missed":["vertex","triangle"],"spurious":["vertex","triangle"]})"},
+      {"self-near", R"({"missed":["vertex","triangle"],"spurious":["vertex","triangle"]})"}};
+  const ViewReader reader = view("boxes.ccr", "levels.json");
+  for (const Json& detector : reader.scene(0).at("detectors")) {
+    const auto found = others.find(detector.at("level"));
+    EXPECT_EQ(detector.at("elements").dump(),
+              found == others.end()
+                  ? R"({"missed":["triangle","triangle"],"spurious":["triangle","triangle"]})"
+                  : found->second)
+        << detector.at("level");
+  }
+}
+
 TEST_F(ViewBytes, HoldTheSceneOnce) {
   const ViewReader reader = view();
   const Json& scene = reader.scene(0);
@@ -257,6 +286,8 @@ TEST_F(ViewBytes, OfALargeSceneHoldWhatIsNearItsContacts) {
     EXPECT_TRUE(has(kept, s == 0 ? 3000 : 5));
     EXPECT_TRUE(s == 0 ? has(vertices, 4321) : has(kept, 9000));
   }
+  EXPECT_EQ(scene.at("detectors").at(0).at("elements").dump(),
+            R"({"missed":["vertex","triangle"],"spurious":["vertex","triangle"]})");
   EXPECT_GT(triangles_kept, 20'000u);
   EXPECT_LT(triangles_kept, mesh.triangles.size());
   // The bare body's nodes are its kept vertices.

@@ -21,7 +21,7 @@ namespace {
 
 using testing::ElementsAre;
 
-constexpr judge::Asked kBody = {Question::kBody, true};
+constexpr judge::Asked kBody = {Question::kBody, true, {}};
 
 // Writes down the frames that it is updated with; in frame 1 it throws where its word is "throws",
 // and answers otherwise where it is "less" or "other".

@@ -11,6 +11,8 @@ export const kMissed = {
   centroid: [10 + 7 / 12, 20 + 7 / 24, 30 - 1 / 24],
 };
 
+const kTriangles = {missed: ["triangle", "triangle"], spurious: ["triangle", "triangle"]};
+
 // A square of two triangles, and a tent in a lattice of one cell that comes down through it.
 const kSquare = [
   [0, 0, 0],

@@ -1,6 +1,5 @@
 // The missed and spurious pairs of a detector: one click leads to a pair.
 import {h} from "../dom";
-import {elementsOf} from "./scene_model";
 import type {Kind, ListedPair, SceneHeader} from "./types";
 
 const kPage = 100;
@@ -14,8 +13,8 @@ function element(body: number, number: number, what: string, names: Names): stri
 }
 
 /** "left triangle 12", "right triangle 7" */
-export function pairWords({pair, level, kind}: ListedPair, names: Names): [string, string] {
-  const [first, second] = elementsOf(level, kind);
+export function pairWords({pair, elements}: ListedPair, names: Names): [string, string] {
+  const [first, second] = elements;
   return [element(pair[0], pair[1], first, names), element(pair[2], pair[3], second, names)];
 }
 

@@ -1,7 +1,16 @@
 // A scene at one of its frames: positions of everything that can be drawn, in the view's unit box.
 import type {Container} from "./container";
 import {Shape} from "./shape";
-import type {DetectorContacts, Kind, ListedPair, Numbers, Pair, SceneHeader} from "./types";
+import type {
+  DetectorContacts,
+  Element,
+  Elements,
+  Kind,
+  ListedPair,
+  Numbers,
+  Pair,
+  SceneHeader,
+} from "./types";
 
 /** What a pair consists of on the screen: triangles, boxes (corners of a hexahedron) and points. */
 export interface PairGeometry {
@@ -10,19 +19,7 @@ export interface PairGeometry {
   points: number[][];
 }
 
-export type Element = "triangle" | "cell" | "vertex" | "body" | "nothing";
-
-/** What the numbers of a pair count; fixtures/README.md, "Contacts". */
-export function elementsOf(level: string, kind: Kind | "true"): [Element, Element] {
-  const ofTriangles = ["triangle", "self", "self-vertex", "self-edge"].includes(level);
-  const ofCells = level === "cell" || level === "self-cell";
-  if (kind === "true" || ofTriangles || (ofCells && kind === "missed"))
-    return ["triangle", "triangle"];
-  if (ofCells || level === "box") return ["cell", "cell"];
-  if (level === "near" || level === "self-near") return ["vertex", "triangle"];
-  if (level === "vertex") return ["vertex", "nothing"]; // the body that holds it has no place of its own
-  return ["body", "body"];
-}
+export const kTrianglePair: Elements = ["triangle", "triangle"];
 
 export class SceneModel {
   readonly shapes: Shape[];
@@ -104,9 +101,8 @@ export class SceneModel {
   }
 
   /** Positions of a pair of this frame. */
-  geometry(pair: Pair, level: string, kind: Kind | "true"): PairGeometry {
+  geometry(pair: Pair, [first, second]: Elements): PairGeometry {
     const out: PairGeometry = {triangles: [], boxes: [], points: []};
-    const [first, second] = elementsOf(level, kind);
     this.add(pair[0], pair[1], first, out);
     this.add(pair[2], pair[3], second, out);
     return out;
@@ -150,12 +146,20 @@ export function pairsIn(flat: number[]): Pair[] {
 /** In the order of detectors, missed before spurious, frames. */
 export function listedPairs(scene: SceneHeader, wanted?: string): ListedPair[] {
   const out: ListedPair[] = [];
-  for (const {detector, level, frames} of scene.detectors) {
+  for (const {detector, level, elements, frames} of scene.detectors) {
     if (wanted !== undefined && detector !== wanted) continue;
     for (const kind of ["missed", "spurious"] as const)
       for (const entry of frames)
         for (const pair of pairsIn(entry[kind].pairs))
-          out.push({scene: scene.id, detector, level, frame: entry.frame, kind, pair});
+          out.push({
+            scene: scene.id,
+            detector,
+            level,
+            elements: elements[kind],
+            frame: entry.frame,
+            kind,
+            pair,
+          });
   }
   return out;
 }

@@ -35,9 +35,14 @@ export interface Differences {
   spurious: Listed;
 }
 
+export type Element = "triangle" | "cell" | "vertex" | "body" | "nothing";
+/** What the numbers of a pair count; "nothing" has no place on the screen. */
+export type Elements = [Element, Element];
+
 export interface DetectorContacts {
   detector: string;
   level: string;
+  elements: Record<Kind, Elements>;
   frames: Differences[];
 }
 
@@ -69,6 +74,7 @@ export interface ViewTarget {
 /** A pair that can be shown. */
 export interface ListedPair extends Required<Omit<ViewTarget, "scene">> {
   scene: string;
+  elements: Elements;
 }
 
 /** What stands on the screen; positions in metres. */

@@ -13,7 +13,7 @@ import {PairTable, pairWords} from "./pair_table";
 import {mostInteresting, Panel} from "./panel";
 import {
   centroid,
-  elementsOf,
+  kTrianglePair,
   listedPairs,
   type PairGeometry,
   reach,
@@ -200,9 +200,9 @@ class SceneViewer implements View {
     this.stage.look(center, 0.85 * radius, direction);
   }
 
-  private lookAtPair({pair, level, kind}: ListedPair): void {
+  private lookAtPair({pair, elements}: ListedPair): void {
     if (!this.stage) return;
-    const geometry = this.model.geometry(pair, level, kind),
+    const geometry = this.model.geometry(pair, elements),
       center = centroid(geometry);
     const {radius} = this.model.extent();
     const size = reach(geometry, center);
@@ -246,14 +246,19 @@ class SceneViewer implements View {
   }
 
   private makeMarks(origin: number[]): ReturnType<typeof makeMarks>[] {
-    const level = this.model.detector(this.detector)?.level ?? "triangle";
+    const elements = this.model.detector(this.detector)?.elements;
     const {chosen} = this,
       drawn = new Set<string>();
     const missed = this.model.differences(this.detector, "missed"),
       keys = new Set(missed.map(String));
     const make = (kind: MarkKind, pairs: Pair[]) =>
       makeMarks(
-        pairs.map((pair) => this.model.geometry(pair, level, kind)),
+        pairs.map((pair) =>
+          this.model.geometry(
+            pair,
+            kind === "true" ? kTrianglePair : (elements?.[kind] ?? kTrianglePair),
+          ),
+        ),
         origin,
         {kind, color: this.colours[kind], selected: false, dimmed: chosen !== null},
         drawn,
@@ -266,7 +271,7 @@ class SceneViewer implements View {
         ? []
         : others("spurious", this.model.differences(this.detector, "spurious"));
     // A missed pair is drawn as that alone. Pairs of other levels are no pairs of triangles.
-    const trianglesMissed = elementsOf(level, "missed")[0] === "triangle";
+    const trianglesMissed = (elements?.missed ?? kTrianglePair)[0] === "triangle";
     const truth = this.model.truth().filter((pair) => !trianglesMissed || !keys.has(String(pair)));
     const {shown} = this.panel;
     return [
@@ -280,11 +285,11 @@ class SceneViewer implements View {
 
   // Its two elements have two colours; the second is drawn first, since no face is drawn twice.
   private chosenMarks(
-    {pair, level, kind}: ListedPair,
+    {pair, elements, kind}: ListedPair,
     origin: number[],
     drawn: Set<string>,
   ): ReturnType<typeof makeMarks>[] {
-    const whole = this.model.geometry(pair, level, kind);
+    const whole = this.model.geometry(pair, elements);
     const second = {
       triangles: whole.triangles.slice(-1),
       boxes: whole.boxes.slice(-1),

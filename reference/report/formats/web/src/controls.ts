@@ -1,5 +1,6 @@
 // The controls above charts: the browser's own, so that keyboards and screen readers know them.
 import {h} from "./dom";
+import type {Regime} from "./page";
 
 export type Option = [value: string, text: string];
 
@@ -42,6 +43,17 @@ export function radios(
   });
   return h("fieldset", {class: "control radios"}, h("legend", {}, label), ...items);
 }
+
+export const regimes = (value: Regime, onChange: (value: Regime) => void): HTMLElement =>
+  radios(
+    "Timed",
+    [
+      ["playback", "playback"],
+      ["cold", "cold"],
+    ],
+    value,
+    (chosen) => onChange(chosen as Regime),
+  );
 
 /** Any of `options`, at most `most` of them. */
 export function checkboxes(

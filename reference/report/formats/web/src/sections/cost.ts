@@ -14,6 +14,8 @@ import {
   kMost,
   lineLegend,
   linesOf,
+  kCostAxis,
+  kMargins,
   plainNumber,
   timedDetectors,
   type FrameCost,
@@ -88,10 +90,7 @@ function drawCosts(width: number, all: Cost[], lines: Lines): Node {
   return Plot.plot({
     width,
     height: Math.min(400, 240 + width / 5),
-    marginLeft: 52,
-    marginTop: 28,
-    marginRight: 24,
-    marginBottom: 40,
+    ...kMargins,
     x: {
       type: "log",
       domain: span,
@@ -100,14 +99,7 @@ function drawCosts(width: number, all: Cost[], lines: Lines): Node {
       tickFormat: width < 600 ? compact : plainNumber,
       ticks: sizeTicks(sizes, span, width),
     },
-    y: {
-      type: "log",
-      label: "↑ ms per frame",
-      grid: true,
-      nice: true,
-      tickFormat: plainNumber,
-      ticks: 6,
-    },
+    y: kCostAxis,
     marks: [
       ...series(all).map((group) =>
         Plot.line(group, {
@@ -144,19 +136,9 @@ function drawFrames(width: number, scene: Scene, all: FrameCost[], lines: Lines)
   return Plot.plot({
     width,
     height: 300,
-    marginLeft: 52,
-    marginTop: 28,
-    marginRight: 24,
-    marginBottom: 38,
+    ...kMargins,
     x: frameAxis(width, scene),
-    y: {
-      type: "log",
-      label: "↑ ms per frame",
-      grid: true,
-      nice: true,
-      tickFormat: plainNumber,
-      ticks: 6,
-    },
+    y: kCostAxis,
     marks: [
       ...lines.detectors.map((name) =>
         Plot.line(
@@ -197,10 +179,7 @@ function drawContacts(width: number, scene: Scene, errors: FrameCount[], lines: 
   return Plot.plot({
     width,
     height: 170,
-    marginLeft: 52,
-    marginTop: 28,
-    marginRight: 24,
-    marginBottom: 38,
+    ...kMargins,
     x: frameAxis(width, scene),
     y: {
       label: "↑ true contacts (area); errors: ▲ missed, × spurious",

@@ -58,3 +58,14 @@ export function frameCosts(page: Page, scene: Scene, chosen: string[]): FrameCos
 
 export const plainNumber = (value: number): string =>
   value >= 1000 ? grouped(value) : String(value);
+
+/** What charts of cost have in common. */
+export const kMargins = {marginLeft: 52, marginTop: 28, marginRight: 24, marginBottom: 40};
+export const kCostAxis = {
+  type: "log" as const,
+  label: "↑ ms per frame",
+  grid: true,
+  nice: true,
+  tickFormat: plainNumber,
+  ticks: 6,
+};

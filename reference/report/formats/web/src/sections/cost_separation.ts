@@ -3,7 +3,15 @@ import * as Plot from "@observablehq/plot";
 import {p} from "../dom";
 import {number} from "../format";
 import type {Page, Scene} from "../page";
-import {costsOf, frameCosts, plainNumber, type FrameCost, type Lines} from "./cost_lines";
+import {
+  costsOf,
+  frameCosts,
+  kCostAxis,
+  kMargins,
+  plainNumber,
+  type FrameCost,
+  type Lines,
+} from "./cost_lines";
 
 interface ApartCost extends FrameCost {
   /** Millimetres. */
@@ -121,10 +129,7 @@ export function drawSeparation(width: number, page: Page, scene: Scene, lines: L
   return Plot.plot({
     width,
     height: 320,
-    marginLeft: 52,
-    marginTop: 28,
-    marginRight: 24,
-    marginBottom: 40,
+    ...kMargins,
     x: {
       type: "log",
       domain: [touching.length > 0 ? span.strip(0) : span.low, span.high],
@@ -133,14 +138,7 @@ export function drawSeparation(width: number, page: Page, scene: Scene, lines: L
       ticks: span.ticks(),
       tickFormat: plainNumber,
     },
-    y: {
-      type: "log",
-      label: "↑ ms per frame",
-      grid: true,
-      nice: true,
-      tickFormat: plainNumber,
-      ticks: 6,
-    },
+    y: kCostAxis,
     marks: [
       ...costsOf(page, scene, lines.detectors).map(([name, {by_distance = []}]) =>
         Plot.line(by_distance, {

@@ -1,7 +1,7 @@
 // The chart of speed against error: every detector a point.
 import * as Plot from "@observablehq/plot";
 import {chart, legend} from "../chart";
-import {controlBar, radios, select, selectPlace, type Option} from "../controls";
+import {controlBar, type Option, regimes, select, selectPlace} from "../controls";
 import {h, p, unfolding} from "../dom";
 import {term} from "../glossary";
 import {groupColour, groupsOf} from "../groups";
@@ -250,15 +250,7 @@ export const speedError: Section = {
         select("Error", Object.entries(kMeasures), choice.measure, (value) =>
           update({measure: value as Measure}),
         ),
-        radios(
-          "Timed",
-          [
-            ["playback", "playback"],
-            ["cold", "cold"],
-          ],
-          choice.regime,
-          (value) => update({regime: value as Regime}),
-        ),
+        regimes(choice.regime, (regime) => update({regime})),
       ),
       picture.element,
       below,

@@ -1,7 +1,7 @@
 // Time per phase of a frame, as stacked bars, with and without the mapping of the vertices.
 import * as Plot from "@observablehq/plot";
 import {chart, legend} from "../chart";
-import {controlBar, radios, selectPlace} from "../controls";
+import {controlBar, radios, regimes, selectPlace} from "../controls";
 import {h, p, unfolding} from "../dom";
 import {number} from "../format";
 import {term} from "../glossary";
@@ -166,15 +166,7 @@ export const times: Section = {
       ),
       controlBar(
         selectPlace("Scenes", choices, choice.scenes, (scenes) => update({scenes})),
-        radios(
-          "Timed",
-          [
-            ["playback", "playback"],
-            ["cold", "cold"],
-          ],
-          choice.regime,
-          (value) => update({regime: value as Regime}),
-        ),
+        regimes(choice.regime, (regime) => update({regime})),
         radios(
           "Mapping",
           [

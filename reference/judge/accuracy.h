@@ -1,5 +1,5 @@
-// The untimed pass: ground truth of every frame, every answer of a detector to every frame, and the
-// comparison of the two.
+// The untimed pass: computes the ground truth of every frame and compares every answer of a
+// detector with it.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace contactcheck::judge {
 
-/// The share of judge_scene() in a worker's work, for the progress bar; random pairs take long
+/// The share of judge_scene() in a worker's work, for the progress bar. Random pairs take long
 /// enough for it to move.
 constexpr double kShareOfTruth = 0.1;
 
-/// Computes positions and ground truth of all frames. A non-finite node ends it: `refused` says
-/// where.
+/// Computes positions and ground truth of all frames. Stops at a non-finite node, and names its
+/// place in `refused`.
 JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& progress);
 
 /// The outcome of the untimed pass, apart from the detector's row in the results.
@@ -32,12 +32,12 @@ struct AccuracyOutcome {
 /// Runs `detector` over all frames and fills levels, graded errors, stages, episodes, hash, memory,
 /// notes and float environment of `run`.
 ///
-/// Each level is judged by the answer to its question (question_of), which is the one that is
-/// timed. Episodes of contact are those of the detector's first question. Depths and normals are
-/// taken from its answer to the question `contacts`. A detector in single precision that is fed
-/// vertices is judged a second time, against the truth for the values that it was fed; one that is
-/// fed nodes maps vertices of its own, which only it knows. Exceptions of the detector pass
-/// through. An answer that names elements that do not exist throws std::runtime_error.
+/// Each level is judged by the answer to its question (question_of), which is the answer that is
+/// timed. Contact episodes come from the detector's first question, depths and normals from the
+/// question `contacts`. A single-precision detector that is fed vertices is judged a second time,
+/// against the truth for the values that it was fed; one that is fed nodes is not, because only the
+/// detector knows its mapped vertices. Exceptions of the detector pass through. Throws
+/// std::runtime_error for an answer that names elements that do not exist.
 AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detector& detector,
                              process::ProgressWriter& progress, results::Run& run);
 

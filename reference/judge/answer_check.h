@@ -13,8 +13,8 @@ namespace contactcheck::judge {
 /// @pre the set is canonical: element pairs then imply their body pair
 void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet& contacts);
 
-/// Asks a question about the frame of the last update. The answer is canonical and checked. Reuses
-/// the capacity of `out`.
+/// Asks a question about the frame of the last update. `out` becomes the answer, canonical and
+/// checked; its capacity is reused.
 void ask(Detector& detector, Question question, const scene::Scene& scene, std::size_t frame,
          ContactSet& out);
 

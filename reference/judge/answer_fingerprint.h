@@ -1,5 +1,5 @@
-// What an answer was, without its records: enough to tell whether the answer that was timed is the
-// one that was judged.
+// A hash of each answer instead of its records: enough to see whether the timed answer is the one
+// that was judged.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace contactcheck::judge {
 
-/// A number for each list of an answer, by ContactList.
+/// One number for each list of an answer, indexed by ContactList.
 using ListNumbers = std::array<std::uint64_t, kContactLists>;
 
 /// A question, and how much of its answer is judged.
@@ -24,8 +24,8 @@ struct Asked {
 };
 Asked asked(Question question, const Semantics& semantics);
 
-/// Per list that an answer is judged by, how many records it has and which; nothing of the others.
-/// Of contacts the number alone, and that roughly.
+/// For each list that is judged: its number of records and a hash of them. For contacts (depths and
+/// normals) only the number; all other lists stay 0.
 struct AnswerFingerprint {
   ListNumbers sizes = {}, hashes = {};
 };
@@ -33,16 +33,16 @@ struct AnswerFingerprint {
 /// @pre `contacts` is canonical
 AnswerFingerprint fingerprint_of(const ContactSet& contacts, const Asked& asked);
 
-/// Per frame, the answers to one question.
+/// The answers to one question, by frame.
 struct JudgedQuestion {
   Question question = Question::kTriangles;
   std::vector<AnswerFingerprint> frames;
 };
-/// In the order of the detector's questions.
+/// Indexed as the detector's questions are.
 using JudgedAnswers = std::vector<JudgedQuestion>;
 
-/// Where `answer` is not `judged` (of contacts: has more than 8 where the other has less than
-/// half): "it answered 0 pairs of triangles and not the 12 that were judged"; "" where it is.
+/// How `answer` differs from `judged` (numbers of contacts do if the larger one is above 8 and
+/// twice the other): "it answered 0 pairs of triangles and not the 12 that were judged"; or "".
 std::string answer_difference(const AnswerFingerprint& answer, const AnswerFingerprint& judged);
 
 }  // namespace contactcheck::judge

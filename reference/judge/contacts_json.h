@@ -1,5 +1,5 @@
-// The contacts of a scene one by one, for pictures: contacts/SCENE.json (schema
-// contactcheck-contacts/1, fixtures/README.md). Everything in it was found by the judge.
+// The single contacts of a scene, for pictures: contacts/SCENE.json (schema
+// contactcheck-contacts/1, fixtures/README.md). All of it comes from the judge.
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@
 
 namespace contactcheck::judge {
 
-/// The true pairs of triangles of every frame that has any.
+/// The true pairs of triangles of every frame that has any, self-contact included.
 std::string truth_contacts(const JudgedScene& judged);
 
-/// What a detector missed and made up, frame by frame; "" where it was judged at no level. Vertices
-/// by the numbers that they have in the meshes as they were given.
+/// The missed and spurious contacts of a detector by frame; "" if no level was judged. Vertices
+/// have the numbers of the meshes as given, before vertices were dropped.
 std::string detector_contacts(const results::Run& run, const std::vector<Body>& bodies,
                               const std::vector<FrameDifferences>& differences);
 
-/// The file's text. `truth`: truth_contacts(); `detectors`: detector_contacts(), none empty.
+/// Assembles the file from truth_contacts() and non-empty texts of detector_contacts().
 std::string contacts_text(const std::string& scene, const std::string& truth,
                           const std::vector<std::string>& detectors);
 
-/// Where the file of a scene stands in the folder of a run: "contacts/SCENE.json".
+/// The file's path inside the folder of a run: "contacts/SCENE.json".
 std::string contacts_path(const std::string& scene);
 
 }  // namespace contactcheck::judge

@@ -1,5 +1,5 @@
-// Frames that are to have no contact, or none but what is allowed: for meshes that nobody claims
-// anything of.
+// Checks that frames have no contact, or only allowed contact, for meshes without declared
+// contacts.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace contactcheck::judge {
 
-/// The detector that finds; the oracle confirms.
+/// Finds the pairs of triangles; the oracle confirms them.
 inline constexpr const char* kFrameDetector = "full-refit";
 
 struct AllowedContact {
@@ -46,19 +46,19 @@ struct BadFrame {
   std::vector<Self> selfs;
 };
 
-/// By body: the first frame in which it is open, with the edge: what lies inside it is not judged.
+/// By body: the first frame in which it is open, and the open edge. Nothing counts as inside it.
 using OpenBodies = std::map<std::uint32_t, std::string>;
 
-/// Finds with full-refit, and confirms what it finds by the oracle.
+/// Finds contacts with full-refit and containment with the oracle; the oracle confirms all of it.
 class FrameChecker {
  public:
   /// `scene` must outlive it.
   FrameChecker(const scene::Scene& scene, const AllowedContact& allowed,
                const DetectorCatalog& catalog);
 
-  /// None: nothing that is not allowed.
-  /// @throws InputError where welded vertices come apart, or a frame cannot be judged;
-  /// std::runtime_error where detector and oracle disagree, which is an error of contactcheck
+  /// Returns what is not allowed in this frame, or nothing.
+  /// @throws InputError if welded vertices come apart or a frame cannot be judged;
+  /// std::runtime_error if detector and oracle disagree, which is an error of contactcheck
   std::optional<BadFrame> check(std::size_t frame);
 
   const OpenBodies& open() const { return open_; }

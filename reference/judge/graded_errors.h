@@ -1,4 +1,4 @@
-// Errors with a size: lengths of contour, distances, depths and normals.
+// Errors with a size: missed length, distances, depths and normals.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,17 @@
 
 namespace contactcheck::judge {
 
-/// Below this share of the scene's size a depth has no direction to be judged.
+/// A depth below this share of the scene's size has no direction that could be judged.
 inline constexpr double kNormalFloor = 1e-9;
 
-/// Edges of bins, ascending, the same for every result. Metres: 0, 1e-12, 2e-12, 5e-12, 1e-11, ...
-/// up to the largest double.
+/// Ascending edges of bins, the same for every result, in metres: 0, 1e-12, 2e-12, 5e-12, 1e-11,
+/// ... up to the largest double.
 const std::vector<double>& length_edges();
-/// Degrees: 0, 5, 10, ..., 180.
+/// The same for angles, in degrees: 0, 5, 10, ..., 180.
 const std::vector<double>& angle_edges();
 
-/// The bins that contain any of `values`, in order. A value on an edge counts above it, one beyond
-/// the last edge in the last bin. @pre no value is negative
+/// The non-empty bins of `values`, ascending. A value on an edge belongs to the bin above it, one
+/// beyond the last edge to the last bin. @pre no value is negative
 std::vector<results::HistogramBin> histogram(const std::vector<double>& values,
                                              const std::vector<double>& edges);
 
@@ -43,17 +43,17 @@ results::ErrorSpread spread_of(std::vector<double>& errors);
 ///   true depth is at least kNormalFloor times the size.
 class GradedErrors {
  public:
-  /// `size`: of the scene, metres. `bodies` must outlive it.
+  /// `size`: of the scene, metres. `bodies` must outlive this object.
   GradedErrors(const std::vector<Body>& bodies, const Semantics& semantics, double size)
       : bodies_(bodies), semantics_(semantics), size_(size) {}
 
-  /// `contour`: the intersection length of each true triangle pair. `geometry` is at this frame.
-  /// Returns the share of the frame's contour that is covered; nothing in a frame without contour
-  /// and for detectors that report no elements.
+  /// `contour`: the intersection length of each true triangle pair, metres. `geometry` is at this
+  /// frame. Returns the share of the frame's contour that is covered; nothing for a frame without
+  /// contour or a detector that reports no elements.
   /// @pre all sets are canonical
   std::optional<double> add_frame(const oracle::Truth& truth, const std::vector<double>& contour,
                                   const ContactSet& reported, oracle::SurfaceGeometry& geometry);
-  /// Without episodes and their sums.
+  /// The sums over all frames; episodes and their sums are not set.
   results::Geometry summary();
 
  private:

@@ -10,8 +10,8 @@
 
 namespace contactcheck::judge {
 
-/// Sets the hover gaps of the run's episodes and sums them up, bisecting time (scripted) or by
-/// frames (recorded).
+/// Sets the hover gaps of the run's episodes and their maximum. Scripted scenes bisect time between
+/// frames; other scenes, drawn ones included, take the distance at the first reported frame.
 void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& detector,
                         process::ProgressWriter& progress, results::Run& run);
 

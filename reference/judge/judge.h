@@ -15,10 +15,10 @@
 
 namespace contactcheck::judge {
 
-/// How many missed and how many spurious pairs of a frame are listed: what a picture can show.
+/// The limits, per frame, of listed missed and of listed spurious pairs: a picture shows no more.
 inline constexpr std::size_t kListedPairs = 500;
 
-/// How many of a frame's pairs there are, and the first of them in canonical order.
+/// The number of a frame's pairs, and the first of them in canonical order.
 struct ListedPairs {
   std::uint64_t count = 0;
   std::vector<ElementPair> pairs;
@@ -32,60 +32,60 @@ struct FrameDifferences {
   ListedPairs missed, spurious;
 };
 
-/// With its contact, which the case file shows.
+/// A disagreement with its contact, which the case file shows.
 struct Disagreement : results::Disagreement {
   ElementPair pair;
 };
-/// What the pair of a disagreement names; nothing where `level` is none.
+/// The kinds of elements that the pair of a disagreement names; no kinds if `level` is not a level.
 NamedElements elements_of(const std::string& level, const std::string& kind);
 
-/// Of bodies that are open in this frame and were in none before: says so in `open`, one text a
-/// body, "open (body "cube", frame 3, edge of vertices 4 and 5)".
+/// Adds to `open`, indexed by body, a text for every body in `found` that has none yet: "open (body
+/// "cube", frame 3, edge of vertices 4 and 5)".
 void note_open_bodies(const std::vector<Body>& bodies, std::size_t frame,
                       const std::vector<oracle::OpenBody>& found, std::vector<std::string>& open);
 
 /// Why a level cannot be judged on these bodies ("not judged: a body has no lattice"), or "".
-/// `open`: by body, as note_open_bodies() fills it; empty texts where it is closed.
+/// `open`: by body, as note_open_bodies() fills it; an empty text means closed.
 std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies,
                                 const std::vector<std::string>& open);
 
-/// The levels at which an answer is compared: claimed (or informative) and wanted by the scene.
-/// Levels that need a solid or a lattice and lack it are left out and named in `not_judged`.
+/// The levels at which an answer is compared: claimed (or informative) and wanted by the scene. A
+/// level that lacks its solids or lattices is left out, and `not_judged` says why.
 std::vector<Level> judged_levels(const std::vector<Body>& bodies,
                                  const std::vector<std::string>& open, const Semantics& semantics,
                                  const std::vector<Level>& wanted,
                                  std::map<Level, std::string>* not_judged);
 
-/// What a detector claims of what a scene asks: without self-contact where the scene names no level
-/// of it, and of self-contact alone where it names no other. A question that is left out is not
-/// asked, so what is not wanted costs nothing.
+/// The part of `semantics` that a scene wants: without self-contact if the scene has no level of
+/// it, and only self-contact if the scene has no other level. A question that is left out is not
+/// asked and costs nothing.
 Semantics semantics_in(const std::vector<Level>& wanted, Semantics semantics);
 
-/// The level self, self-vertex or self-edge that two different triangles of a shape belong to;
-/// none of duplicates, which name the same vertices.
+/// The level (self, self-vertex or self-edge) of two different triangles of a shape; none for
+/// duplicates, which name the same vertices.
 std::optional<Level> self_level(const BodyShape& shape, std::uint32_t a, std::uint32_t b);
 
-/// Those of `pairs` that belong to one of these three levels.
+/// The pairs of `pairs` that belong to `level`, one of these three.
 std::vector<SelfPair> self_pairs(Level level, const std::vector<Body>& bodies,
                                  const std::vector<SelfPair>& pairs);
 
-/// Those of `pairs` of which no cell of the one triangle shares a node with one of the other: the
-/// truth of self-cell.
+/// The pairs of `pairs` for which no cell of one triangle shares a node with a cell of the other:
+/// the ground truth of level self-cell.
 /// @pre their bodies have lattices
 std::vector<SelfPair> pairs_of_cells_apart(const std::vector<Body>& bodies,
                                            const std::vector<SelfPair>& pairs);
 
-/// The question whose answer is judged at `level`: the one that is about it (`body`, `triangles`,
-/// `cells`, `self`) where the detector answers that. Else its first but `body`, which may end
-/// early; else `body`.
+/// The question whose answer is judged at `level`: `self` for levels of self-contact; else the
+/// question about the level (`body`, `triangles`, `cells`) if the detector answers it; else its
+/// first question other than `body` and `self`; else `body`, whose answer may end early.
 Question question_of(Level level, const Semantics& semantics);
 /// The question whose answer a list is judged by. Depths and normals are those of `contacts`.
 Question question_about(ContactList list, const Semantics& semantics);
 
-/// An answer to one frame compared with the ground truth at one level.
+/// An answer to one frame, compared with the ground truth at one level.
 struct LevelComparison {
   results::LevelCounts counts;  ///< without rates
-  /// In canonical order; they name the elements that FrameDifferences names.
+  /// In canonical order; they name the same elements as FrameDifferences.
   std::vector<ElementPair> missed, spurious;
 };
 
@@ -95,11 +95,11 @@ using TrueNear = std::map<Level, std::vector<NearPair>>;
 TrueNear true_near(oracle::Oracle& oracle, const Frame& frame, const std::vector<Level>& levels,
                    double margin);
 
-/// The pairs of bodies in contact, canonical; `solid`: with containment, for detectors that take
-/// bodies for solids.
+/// The pairs of bodies in contact, canonical; `solid` adds containment, for detectors that treat
+/// bodies as solids.
 std::vector<BodyPair> true_body_pairs(bool solid, const oracle::Truth& truth);
 
-/// `near`: of the margin of the semantics, for the levels `near` and `self-near`.
+/// `near`: the true pairs within the detector's margin, for the levels `near` and `self-near`.
 /// @pre all sets are canonical
 LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const Semantics& semantics,
                            const oracle::Truth& truth, const ContactSet& reported,
@@ -108,17 +108,17 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
 /// The comparisons of one detector's answers, summed over the frames of a scene.
 class LevelTotals {
  public:
-  /// `listed`: how many pairs of each kind and frame `differences` keeps; 0: it stays empty.
+  /// `listed`: the most pairs of each kind and frame that `differences` keeps; 0 keeps none.
   LevelTotals(const Semantics& semantics, const std::vector<Level>& compared,
               std::size_t listed = 0);
   /// @pre frames come in order
   void add(std::size_t frame, Level level, const LevelComparison& comparison);
 
-  results::Levels levels;                     ///< with rates, and the margin of level near
-  results::PerFrame per_frame;                ///< at the finest level claimed
-  std::vector<FrameDifferences> differences;  ///< of the frames that have any
-  /// The first missed and the first spurious contact of each level claimed; scene and detector left
-  /// empty.
+  results::Levels levels;                     ///< with rates, near levels with their margin
+  results::PerFrame per_frame;                ///< at the finest level claimed and compared
+  std::vector<FrameDifferences> differences;  ///< the frames that have any
+  /// The first missed and the first spurious contact of each claimed level; the caller sets scene
+  /// and detector.
   std::vector<Disagreement> disagreements;
 
  private:
@@ -126,13 +126,13 @@ class LevelTotals {
   std::size_t listed_;
 };
 
-/// Adds a frame to the sums of a detector's stages. A stage's `missed` are the true pairs that all
-/// stages before it covered and that its own output does not cover.
+/// Adds a frame to the sums of a detector's stages. A stage's `missed` counts the true pairs that
+/// all stages before it covered and that its own output does not cover.
 void add_stages(const std::vector<Body>& bodies, const StageTrace& trace,
                 const std::vector<ElementPair>& true_triangles,
                 std::vector<results::Stage>& stages);
 
-/// Does some pair of cells in `cells` (canonical) belong to the labels of the two triangles?
+/// True if some pair of cells in `cells` (canonical) belongs to the labels of the two triangles.
 /// Marks each such pair in `covering`, by its index in `cells`.
 bool covered_by_cells(const std::vector<Body>& bodies, const std::vector<ElementPair>& cells,
                       const ElementPair& triangles, std::vector<char>* covering = nullptr);

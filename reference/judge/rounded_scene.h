@@ -14,19 +14,19 @@
 
 namespace contactcheck::judge {
 
-/// How a detector in single precision is fed.
+/// How the input of a single-precision detector is rounded.
 struct Rounding {
   double scale = 1.0;         ///< fed_value(), without a local origin
   bool local_origin = false;  ///< local_value() about local_origin() of each frame
   auto operator<=>(const Rounding&) const = default;
 };
 
-/// One scene in the values of one rounding. Truths are computed on demand and kept.
+/// A scene in the values of one rounding. Truths are computed on demand and cached.
 class RoundedScene {
  public:
   RoundedScene(const JudgedScene& judged, const Rounding& rounding);
 
-  /// False when a coordinate is beyond single precision.
+  /// False if a coordinate overflows single precision.
   bool representable() const { return representable_; }
   /// The rounded vertices, in units of 1 / scale metres, about the local origin if there is one;
   /// valid until the next call.
@@ -46,21 +46,21 @@ class RoundedScene {
   std::vector<std::optional<oracle::Truth>> truths_;
 };
 
-/// Two times between which a pair of bodies first touches.
+/// Two times: the bodies of a pair are separated at the first and touch at the second.
 struct ContactMoment {
   double before = 0.0, after = 0.0;  ///< seconds
 };
 
-/// What judging the detectors of a scene needs, made once for all of them.
+/// Caches for judging all detectors of a scene.
 struct JudgingTools {
   explicit JudgingTools(const JudgedScene& judged);
-  /// The scene in rounded values; nullptr where they do not fit into single precision.
+  /// The scene in rounded values; nullptr if they overflow single precision.
   RoundedScene* rounded(const Rounding& rounding);
 
   const JudgedScene& judged;
   oracle::Oracle oracle;
   oracle::SurfaceGeometry geometry;
-  /// By pair and first frame of true contact; filled by measure_hover_gaps() (episodes.h).
+  /// By pair and first frame of true contact; a cache of measure_hover_gaps() (hover.h).
   std::map<std::pair<BodyPair, std::size_t>, ContactMoment> true_contacts;
 
  private:

@@ -1,4 +1,4 @@
-// What a run writes down about a detector beside its counts.
+// What a run records about a detector besides its counts.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace contactcheck::judge {
 
-/// Notes that `call` left the floating-point environment changed, and restores it.
+/// Notes that `call` changed the floating-point environment, and restores it.
 void note_environment(const process::FloatEnvironmentGuard& guard, const char* call,
                       results::Run& run);
 
-/// Counts in how many frames a detector said each of its sentences.
+/// Counts the frames in which a detector gave each of its notes.
 class FrameNotes {
  public:
   void add_frame(const std::vector<std::string>& sentences);
@@ -32,12 +32,12 @@ class FrameNotes {
   std::size_t frames_ = 0;
 };
 
-/// Recognises an answer whose pairs name the triangle of the other body first.
+/// Detects answers whose pairs name the triangle of the other body first.
 class ExchangedPairs {
  public:
   /// A frame of level `triangle`.
   void add_frame(const LevelComparison& comparison);
-  /// A sentence, if the answer has at least half of the missed pairs so; else empty.
+  /// A note if at least half of the missed pairs are such pairs; else "".
   std::string sentence() const;
 
  private:

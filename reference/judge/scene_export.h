@@ -1,11 +1,11 @@
-// A scene as a folder that proves its own truth: the deformed surfaces of every frame, certificates
-// of which triangles touch and which do not, and the script that checks them (check.py, which
-// documents the files).
+// A scene as a folder that proves its ground truth: the deformed surfaces of every frame,
+// certificates of which triangles touch and which do not, and the script that checks them
+// (check.py, which documents the files).
 //
-// Certified are the pairs of triangles that share a point and, from them, the pairs of bodies whose
-// surfaces do, for the doubles in the PLY files: no pair is missing, none too many. Not certified
-// are containment, vertices inside, boxes, cells, margins, lengths and depths, nor that the
-// vertices are what the scene's lattices make of its meshes.
+// The certificates cover, for the doubles in the PLY files, exactly the pairs of triangles that
+// share a point and the pairs of bodies whose surfaces do. They do not cover containment, vertices
+// inside, boxes, cells, margins, lengths and depths, nor that lattices and meshes give these
+// vertices.
 #pragma once
 
 #include <cstddef>
@@ -17,25 +17,25 @@
 
 namespace contactcheck::judge {
 
-/// What an export holds, summed over its frames.
+/// Sums over the exported frames.
 struct ExportSummary {
   std::size_t frames = 0;
   std::size_t contacts = 0;  ///< pairs of triangles that touch
-  std::size_t gaps = 0;      ///< pairs with boxes that meet and a plane between them
-  /// Of the pairs of bodies and triangles, chained over frames: of a complete export, what
-  /// results.json calls contact_hash of a detector that is right.
+  std::size_t gaps = 0;      ///< pairs with overlapping boxes and a separating plane
+  /// Hash of the pairs of bodies and triangles, chained over frames. For an export of all frames it
+  /// equals the contact_hash, in results.json, of a detector that is right.
   std::uint64_t contact_hash = 0;
 };
 
-/// Writes every `every`-th frame, from 0, into an empty folder; scene.json, without which nothing
-/// passes for an export, comes last. Calls `before_frame` before each.
-/// @pre a simulated scene has been run; every > 0
-/// @throws InputError, one sentence: a vertex is not finite, a file cannot be written
+/// Writes every `every`-th frame, from 0, into an empty folder; scene.json comes last, and a folder
+/// without it is not an export. Calls `before_frame` before each frame.
+/// @pre a simulated scene has been simulated; every > 0
+/// @throws InputError, one sentence, if a vertex is not finite or a file cannot be written
 ExportSummary export_scene(const scene::Scene& scene, std::size_t every,
                            const std::filesystem::path& folder,
                            const std::function<void()>& before_frame);
 
-/// Is `folder` a complete export, of whatever scene?
+/// True if `folder` is a complete export of some scene.
 bool is_export(const std::filesystem::path& folder);
 
 }  // namespace contactcheck::judge

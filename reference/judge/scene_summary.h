@@ -1,4 +1,4 @@
-// What results.json says about a scene itself.
+// The entry of a scene in results.json.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace contactcheck::judge {
 
-/// Bodies, frames, the ground truth at every level that the scene asks for, and the
-/// contact_hash of a detector that finds exactly the true pairs of triangles; `separations` per
-/// frame, where there are any (judged_scene.h).
+/// Bodies, frames, the ground truth at every level that the scene wants, and the contact_hash of a
+/// detector that finds exactly the true pairs of triangles. `separations`: per frame, metres, or
+/// empty (judged_scene.h).
 results::Scene scene_summary(const JudgedScene& judged,
                              const std::vector<double>& separations = {});
 

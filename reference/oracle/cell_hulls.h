@@ -14,10 +14,10 @@ namespace contactcheck::oracle {
 
 class CellHulls {
  public:
-  /// The boxes at rest are found here, once. A body without a lattice has none.
+  /// Finds the boxes at rest, once. A body without a lattice has no boxes.
   explicit CellHulls(std::shared_ptr<const BodyShape> shape);
 
-  /// Maps all boxes by the deformed nodes; hulls are made when they are first asked for.
+  /// Maps all boxes by the deformed nodes. Hulls are built on first use.
   void update(std::span<const Vec3> nodes);
 
   std::size_t size() const { return corners_.size(); }

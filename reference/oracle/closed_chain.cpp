@@ -144,8 +144,8 @@ std::uint32_t first_open_along_lines(const std::vector<EdgeSum>& edges,
   return open;
 }
 
-// Of a surface whose edges do not all cancel: the first corner of an open edge, or kNoCorner where
-// triangles of no area alone are why.
+// For a surface with edges that do not cancel: the first corner of an open edge, or kNoCorner if
+// only triangles without area keep them from cancelling.
 std::uint32_t first_open(std::span<const Triangle> triangles, const std::vector<HalfEdge>& edges,
                          std::span<const Vec3> vertices) {
   std::vector<char> area(triangles.size());

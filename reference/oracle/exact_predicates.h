@@ -1,9 +1,9 @@
-// The exact signs on which every verdict of the oracle rests, and the only door to CGAL's kernel.
+// The exact signs that every verdict of the oracle uses, and its only calls of CGAL's EPICK kernel.
 //
-// All inputs finite; every answer is exact for every finite double, subnormal ones included.
+// Answers are exact for every finite double, subnormal ones included; all inputs must be finite.
 // Source: CGAL 5.5, EPICK kernel (LGPL): floating-point filters, then exact arithmetic. CGAL's own
-// checks vanish under NDEBUG and it then answers degenerate triangles wrongly without a word (seen
-// in 5.5.1), so nothing here hands it one.
+// checks vanish under NDEBUG, and it then silently answers degenerate triangles wrong (seen in
+// 5.5.1), so this file never passes it one.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace contactcheck::oracle {
 
-/// The three corners of a triangle; degenerate ones are the segment or the point that they are.
+/// The three corners of a triangle; a degenerate triangle is treated as a segment or a point.
 using TriangleCorners = std::array<Vec3, 3>;
 
 /// Sign of det[b - a, c - a, d - a]: +1 when d lies on the side to which (b - a) x (c - a) points.

@@ -1,7 +1,7 @@
-// Whether closed triangles, segments and points share a point: exact, for every finite input.
+// Whether closed triangles, segments and points share a point: exact for every finite input.
 //
-// Touching counts. Degenerate triangles are the segment or the point that they are; so are segments
-// whose ends coincide. No epsilon.
+// Touching counts, and there is no epsilon. A degenerate triangle is treated as a segment or a
+// point, a segment with equal ends as a point.
 #pragma once
 
 #include "core/types/mesh.h"
@@ -25,12 +25,12 @@ bool meet_beyond_corner(const TriangleCorners& p, const TriangleCorners& q);
 /// True when two triangles share a point off the segment from p[0] = q[0] to p[1] = q[1].
 bool meet_beyond_edge(const TriangleCorners& p, const TriangleCorners& q);
 
-/// True when two triangles of one body share more than the hull of the vertices that both name;
+/// True when two triangles of one body share more than the hull of the vertices that both use;
 /// false for duplicates.
 bool meet_beyond_shared(const Triangle& p, const TriangleCorners& p_corners, const Triangle& q,
                         const TriangleCorners& q_corners);
 
-/// The segment (or point) that a degenerate triangle is: between its outermost corners.
+/// The segment (or point) of a degenerate triangle, between its outermost corners.
 /// @pre the corners are collinear
 Segment segment_of_degenerate(const TriangleCorners& triangle);
 

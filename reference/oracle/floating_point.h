@@ -1,6 +1,6 @@
-// What the oracle's arithmetic in double rests on: the floating-point environment that it was
-// proven for, and powers of two that scale coordinates to at most 1, where squares and products
-// neither overflow nor lose what matters to underflow.
+// What the oracle's double arithmetic assumes: the default floating-point environment, and
+// coordinates scaled by a power of two to at most 1, where squares and products neither overflow
+// nor lose significant digits to underflow.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace contactcheck::oracle {
 
-/// Round to nearest, subnormals kept, no traps; the caller's environment comes back at the end.
-/// Some libraries leave flush-to-zero behind (Embree 3.13, seen in 2026), with which CGAL 5.5
-/// reports false contacts at scale 1e-104.
+/// Sets round to nearest, subnormals kept, no traps; restores the caller's environment at its end.
+/// Some libraries leave flush-to-zero set (Embree 3.13, seen in 2026), with which CGAL 5.5 reports
+/// false contacts at scale 1e-104.
 class FloatingPointGuard {
  public:
   FloatingPointGuard() {
@@ -43,12 +43,12 @@ inline double largest_coordinate(std::span<const Vec3> points) {
   return out;
 }
 
-/// The largest side of the points' box; infinite where it overflows, 0 without points.
+/// The largest side of the points' box; infinite if it overflows, 0 without points.
 inline double largest_side(std::span<const Vec3> points) {
   return points.empty() ? 0.0 : box_of(points).extent().maxCoeff();
 }
 
-/// The lowest k with x * 2^-k < 1; of 0 and infinity, that of the smallest and largest double.
+/// The lowest k with x * 2^-k < 1. 0 and infinity count as the smallest and the largest double.
 /// @pre x >= 0
 inline int exponent_above(double x) {
   return std::ilogb(std::clamp(x, std::numeric_limits<double>::denorm_min(),
@@ -56,7 +56,7 @@ inline int exponent_above(double x) {
          1;
 }
 
-/// p * 2^k. Exact, but for bits that fall below 2^-1074.
+/// p * 2^k, exact except for bits below 2^-1074.
 inline Vec3 scaled_by_two_to(int k, const Vec3& p) {
   return {std::ldexp(p.x(), k), std::ldexp(p.y(), k), std::ldexp(p.z(), k)};
 }

@@ -9,7 +9,7 @@
 //  - Both with volume: the boundary of B is connected and avoids that of A, so it lies inside A or
 //    outside A. Inside: the points of B lie in A. Outside: A is connected, holds x in B and avoids
 //    the boundary of B, so A lies in B.
-// In each case all points of one hull lie in the other: any single one tells.
+// In each case all points of one hull lie in the other, so that any single point decides.
 //
 // The surface is found by trying all triples of distinct points: with volume, a non-collinear
 // triple with all points on one closed side spans a piece of a face, and the triples of a face's

@@ -1,4 +1,4 @@
-// Whether the convex hulls of two sets of eight points share a point: exact, closed.
+// Whether the closed convex hulls of two sets of eight points share a point: exact.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace contactcheck::oracle {
 
-/// A convex hull, ready to be tested against others.
+/// A convex hull, prepared for tests against others.
 struct ConvexHull {
   std::vector<Vec3> points;  ///< the distinct ones
   Aabb box;
-  /// Triangles whose union is the hull's boundary when it has volume, and the hull itself when it
-  /// is flat. With volume, all points lie on the closed negative side of each.
+  /// Triangles whose union is the hull's boundary if it has volume, and the hull itself if it is
+  /// flat. With volume, all points lie on the closed negative side of each triangle.
   std::vector<TriangleCorners> surface;
   bool has_volume = false;
 };

@@ -39,7 +39,7 @@ void add_contact(std::vector<Pair>& contacts, const Pair& pair, std::size_t most
   contacts.push_back(pair);
 }
 
-// Of the scale; below the 1e-9 that DistanceInterval promises, which pays for rounding.
+// Relative to the scale; below the 1e-9 that DistanceInterval promises, which pays for rounding.
 constexpr double kSeparationWidth = 9e-10;
 
 }  // namespace
@@ -61,8 +61,8 @@ struct Oracle::Impl {
 
   std::vector<std::shared_ptr<const BodyShape>> shapes;
   std::vector<SurfaceTree> trees;
-  // Instances of one shape share what is known of it as written. Where that is closed it is the
-  // body's chain in every frame. Empty until first wanted.
+  // Instances of one shape share the chain as written. If that is closed, it is the body's chain in
+  // every frame. Empty until first wanted.
   std::vector<std::shared_ptr<const SurfaceChain>> written, chains;
   std::vector<CellHulls> hulls;  // empty until boxes are first wanted
   ScaledSurface scaled_a, scaled_b;

@@ -1,7 +1,7 @@
-// The exact oracle: the ground truth for the deformed doubles of a frame.
+// The exact oracle: computes the ground truth for the deformed doubles of a frame.
 //
-// Uses core's types and its rest-shape data, none of its broad or narrow code: its own tree finds
-// the candidates, CGAL's EPICK kernel decides, with a separate path for degenerate triangles.
+// It uses core's types and rest-shape data, and none of core's broad or narrow phase: its own tree
+// finds the candidates, CGAL's EPICK kernel decides, and degenerate triangles have a separate path.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 
 namespace contactcheck::oracle {
 
-/// Pairs of triangles in contact that are listed for a frame, of two bodies and of one: some
-/// seconds and 1 GB. 6,325 triangles on one another have as many.
+/// The most pairs of triangles in contact that are listed for a frame, between bodies and within
+/// bodies (each): some seconds and 1 GB. 6,325 triangles at one place have that many.
 inline constexpr std::size_t kMostContacts = 20'000'000;
 
 /// "more than 20000000 pairs of triangles are in contact; at most that many can be judged"
 [[noreturn]] void refuse_many_contacts(std::size_t most);
 
-/// What truth is wanted; what is not wanted is not computed.
+/// The kinds of truth to compute; others are not computed.
 struct WantedTruth {
   bool triangles = true;  ///< triangle pairs and, from them, body pairs by surface
   bool containment = false;
@@ -33,35 +33,35 @@ struct WantedTruth {
   std::size_t most_contacts = kMostContacts;
 };
 
-/// A body that encloses nothing in a frame.
+/// A body that is open, so that it encloses nothing, in one frame.
 struct OpenBody {
   std::uint32_t body = 0;
   OpenEdge edge;
   bool operator==(const OpenBody&) const = default;
 };
 
-/// Pairs of bodies whose surfaces share no point, though a component of one lies inside the other.
+/// Pairs of bodies whose surfaces share no point, and a component of one lies inside the other.
 struct Containment {
-  std::vector<BodyPair> pairs;  ///< canonical; inside an open body lies nothing
+  std::vector<BodyPair> pairs;  ///< canonical; an open body contains nothing
   std::vector<OpenBody> open;   ///< in the order of the bodies
 };
 
 struct Truth {
-  /// bodies: pairs whose surfaces share a point; triangles: pairs that share a point; vertices:
-  /// strictly inside a solid body, of those that triangles use; self: pairs of triangles of one
-  /// body that meet in more than the vertices they share, without duplicates (the same vertices).
-  /// Canonical. `cells` stays empty: cell truth is triangle truth read through labels.
+  /// bodies: pairs whose surfaces share a point. triangles: pairs that share a point. vertices:
+  /// strictly inside another solid and used by a triangle. self: pairs of triangles of one body
+  /// that meet in more than their common vertices, without duplicates (the same vertices).
+  /// Canonical. `cells` stays empty: cell truth is triangle truth seen through the cell labels.
   ContactSet surface;
-  std::vector<BodyPair> containment;  ///< as Containment says
-  std::vector<OpenBody> open;         ///< told where containment or vertices are wanted
+  std::vector<BodyPair> containment;  ///< see Containment
+  std::vector<OpenBody> open;         ///< set if containment or vertices are wanted
   std::vector<ElementPair> boxes;     ///< pairs of kept cells whose mapped FFD-AABB hulls overlap
 };
 
 /// Certified: lower <= true distance <= upper, and upper - lower <= 1e-9 * scale of the
-/// coordinates; both 0 exactly when the surfaces share a point.
+/// coordinates; both are exactly 0 if the surfaces share a point, and only then.
 struct DistanceInterval {
   double lower = 0.0, upper = 0.0;
-  /// Of distance(): one triangle of each surface, whose distance lies in the interval.
+  /// Set by distance(): one triangle of each surface; their distance lies in the interval.
   std::array<std::uint32_t, 2> triangles{};
 };
 
@@ -74,20 +74,20 @@ class Oracle {
 
   /// @pre frame has vertices for every body, all finite
   /// @throws RefusedInput for self-contact of a mesh as refuse_many_adjacent_pairs() does, and for
-  /// more pairs of triangles of two bodies, or of one, than `wanted.most_contacts`
+  /// more than `wanted.most_contacts` pairs of triangles between bodies, or within bodies
   Truth judge(const Frame& frame, const WantedTruth& wanted);
-  /// The containment in `frame`, where it is known which surfaces share a point (canonical).
+  /// The containment in `frame`. `touching`: the pairs whose surfaces share a point, canonical.
   Containment containment(const Frame& frame, const std::vector<BodyPair>& touching);
-  /// Distance between two surfaces (triangle against triangle), of the vertices of `frame`.
+  /// The distance between two surfaces (triangle against triangle) at the vertices of `frame`.
   DistanceInterval distance(const Frame& frame, BodyPair pair);
-  /// The smallest distance between the surfaces of any two bodies: the contract of distance(), the
-  /// scale being that of all bodies. @pre at least two bodies
+  /// The smallest distance between the surfaces of any two bodies: the contract of distance(), with
+  /// the scale of all bodies. @pre at least two bodies
   DistanceInterval separation(const Frame& frame);
-  /// Every vertex nearer than `margin` (strictly) to a triangle of another body: exact, canonical.
-  /// A degenerate triangle is the segment or point that it is. A margin of 0 gives nothing.
+  /// All pairs of a vertex and a triangle of another body nearer than `margin` (strictly): exact,
+  /// canonical. A degenerate triangle is treated as a segment or a point. None for a margin of 0.
   std::vector<NearPair> near(const Frame& frame, double margin);
-  /// The same of every body with itself: of triangles that do not use the vertex or one welded to
-  /// it (BodyShape::uses).
+  /// The same within each body, without triangles that use the vertex or one welded to it
+  /// (BodyShape::uses).
   std::vector<NearPair> self_near(const Frame& frame, double margin);
 
  private:

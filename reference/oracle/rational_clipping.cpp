@@ -190,7 +190,7 @@ bool an_end_is_off(const IntegerTriangle& t, const std::vector<Condition>& condi
     if (edge.empty()) continue;
     for (const Fraction* at : {&edge.low(), &edge.high()})
       for (const Condition& c : hull) {
-        // Of the point from + at (to - from), times the denominator.
+        // For the point from + at (to - from), times the denominator.
         const mpz_class excess =
             at->denominator * c.excess(from) + at->numerator * dot(c.gradient, to - from);
         if (c.equation ? excess != 0 : excess < 0) return true;

@@ -1,7 +1,7 @@
-// Slow, exact answers in rational arithmetic (GMP), to judge the fast ones.
+// Slow, exact answers in rational arithmetic (GMP), to check the fast ones.
 //
-// Independent on purpose: intersections are linear programs over barycentric coordinates, solved by
-// the simplex method with Bland's rule, so that touching, coplanar and degenerate input is no
+// Independent on purpose: an intersection is a linear program over barycentric coordinates, solved
+// by the simplex method with Bland's rule, so that touching, coplanar and degenerate input needs no
 // special case. Nothing here calls core's predicates. @pre all coordinates finite
 #pragma once
 
@@ -39,13 +39,13 @@ inline Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// One equation: the coefficients of all unknowns, and the right-hand side.
+/// An equation: the coefficients of all unknowns, and the right-hand side.
 struct Equation {
   std::vector<mpq_class> coefficients;
   mpq_class right;
 };
 
-/// True when the equations have a solution in which no unknown is negative. Exact; phase one of the
+/// True when the equations have a solution without a negative unknown. Exact: phase one of the
 /// simplex method, which cannot cycle under Bland's rule.
 /// @pre every equation has the same number of coefficients
 bool has_nonnegative_solution(std::vector<Equation> equations);

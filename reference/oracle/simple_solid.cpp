@@ -24,7 +24,7 @@
 namespace contactcheck::oracle {
 namespace {
 
-/// Of triangles whose vertices are welded.
+/// The edges of triangles whose vertices are welded.
 class WeldedSurface {
  public:
   WeldedSurface(const SurfaceTree& tree, std::span<const Triangle> triangles,

@@ -62,7 +62,7 @@ double up(double x) { return x * kOutward + kUnderflow; }
 
 double length_up(const Vec3& v) { return up(v.norm()); }
 
-// Zero where it is lost to rounding.
+// Zero if rounding makes it too small.
 Vec3 unit_normal(const TriangleCorners& t) {
   const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const double length = normal.norm();
@@ -186,7 +186,7 @@ class LinearBounds {
     return out;
   }
 
-  // Of three, the weights that make all corners equal, if none of them is negative.
+  // For three bounds: the weights that make all corners equal, if none of them is negative.
   static double best_of_three(const Values& a, const Values& b, const Values& c) {
     const double a1 = a[0] - a[1], b1 = b[0] - b[1], c1 = c[0] - c[1];
     const double a2 = a[0] - a[2], b2 = b[0] - b[2], c2 = c[0] - c[2];
@@ -278,7 +278,7 @@ DistanceBounds DepthSearch::run() {
   return {lower_, upper()};
 }
 
-// @param inside  known already; else it is found out
+// @param inside  the caller already found the point inside; else this function tests it
 Probe DepthSearch::probe(std::uint8_t side, const Vec3& point, bool inside) const {
   Probe out;
   out.point = point;
@@ -393,7 +393,7 @@ double DepthSearch::linear_bound(const TrianglePiece& piece, const Probe& center
   return bounds.highest();
 }
 
-// Normals outward, where they are known; on the surface either may be.
+// Normals point outward where the side is known; on the surface either direction may be.
 void DepthSearch::add_tangents(const TrianglePiece& piece, const Probe& at,
                                LinearBounds& bounds) const {
   const Vec3 base = at.point + at.offset;

@@ -1,7 +1,7 @@
-// How deep two solids are in each other: a certified interval of their surface depth.
+// The surface depth of two solids, as a certified interval.
 //
-// The largest distance from a point of either surface that lies inside the other solid to that
-// solid's surface. Crossed bars without a vertex inside are deep; so is a body inside another one.
+// The depth is the largest distance from a point of either surface inside the other solid to that
+// solid's surface. Crossed bars are deep although no vertex is inside; so is a body inside another.
 #pragma once
 
 #include <limits>
@@ -11,20 +11,20 @@
 
 namespace contactcheck::oracle {
 
-/// After so many pieces the search ends, and gives the interval that it has.
+/// After this many pieces the search stops and returns its present interval.
 inline constexpr int kMostDepthPieces = 100'000;
 
-/// How narrow an interval is wanted: at most a thousandth of its upper end, or 1e-9 of the largest
-/// |coordinate|. An interval that holds `limit` is narrowed to the latter; one at most `limit` may
-/// be as wide as it is.
+/// The wanted width: at most a thousandth of the upper end, or 1e-9 of the largest |coordinate|. An
+/// interval that contains `limit` is narrowed to the latter; an interval at or below `limit` may
+/// have any width.
 struct DepthWanted {
   double limit = -std::numeric_limits<double>::infinity();
   int pieces = kMostDepthPieces;
 };
 
-/// lower <= depth <= upper. Both are 0 where no point of either surface can lie inside the other;
-/// surfaces that only touch have a lower end of 0 and an upper end of at most 1e-9. Wider than
-/// wanted only where the pieces ran out.
+/// lower <= depth <= upper. Both are 0 if no point of either surface can lie inside the other; for
+/// surfaces that only touch, lower is 0 and upper at most 1e-9. The interval is wider than wanted
+/// only if the search used all its pieces.
 /// @pre both are simple solids (simple_solid.h), their trees fitted to |coordinates| <= 1
 DistanceBounds surface_depth(const SurfaceTree& a, const SurfaceTree& b,
                              const DepthWanted& wanted = {});

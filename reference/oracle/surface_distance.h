@@ -1,4 +1,4 @@
-// A certified interval of the distance between two surfaces.
+// The distance between two surfaces, as a certified interval.
 #pragma once
 
 #include "reference/oracle/oracle.h"
@@ -6,20 +6,20 @@
 
 namespace contactcheck::oracle {
 
-/// The vertices of a surface as they are, and scaled for arithmetic in double.
+/// The vertices of a surface, original and scaled for double arithmetic.
 struct ScaledSurface {
   SurfaceTree* tree = nullptr;
   std::span<const Vec3> vertices;
   std::vector<Vec3> scaled;  ///< work space, kept for its capacity
 };
 
-/// The interval of DistanceInterval's contract: [0, 0] exactly when a triangle of one shares a
-/// point with a triangle of the other (exact), else at most 1e-9 times the largest |coordinate|
-/// wide. Leaves both trees fitted to the scaled vertices.
+/// The interval as DistanceInterval promises: [0, 0] exactly if a triangle of one surface shares a
+/// point with a triangle of the other, else at most 1e-9 times the largest |coordinate| wide.
+/// Leaves both trees fitted to the scaled vertices.
 DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b);
 
-/// That of each of the points, as a surface of its own, to the surface; `triangles` names the
-/// surface's second. Points that do not exceed the surface's coordinates share one fit of its tree.
+/// The interval from each point to the surface, in the order of `points`. The second of `triangles`
+/// is the surface's. Points within the surface's largest coordinate share one fit of its tree.
 std::vector<DistanceInterval> point_distances(std::span<const Vec3> points, ScaledSurface& surface);
 
 }  // namespace contactcheck::oracle

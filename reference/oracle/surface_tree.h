@@ -1,7 +1,7 @@
-// The oracle's own box tree over the triangles of one surface: shape once, boxes every frame.
+// The oracle's own box tree over the triangles of one surface: built once, boxes refitted.
 //
-// Split by the median of the rest centroids along the longest side; refit bottom-up. Boxes are the
-// exact bounds of the vertices, and only comparisons decide, so no candidate is ever lost.
+// Split by the median of the rest centroids along the longest side; refitted bottom-up. Boxes are
+// the exact bounds of the vertices and only comparisons decide, so that no candidate is missed.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ namespace contactcheck::oracle {
 
 class SurfaceTree {
  public:
-  /// A leaf holds the places first .. first + count; an inner node has count 0 and its children
-  /// are the next node and `second`.
+  /// A leaf contains the places first .. first + count. An inner node has count 0; its children are
+  /// the next node and `second`.
   struct Node {
     Aabb box;
     std::uint32_t first = 0, count = 0, second = 0;
@@ -29,7 +29,7 @@ class SurfaceTree {
   /// @pre at least one triangle, indices in range
   explicit SurfaceTree(const TriangleMesh& rest);
 
-  /// Moves the tree to new vertices, which must outlive their use.
+  /// Fits the boxes to new vertices; the span must outlive its use.
   void refit(std::span<const Vec3> vertices);
 
   const Aabb& bounds() const { return nodes_.front().box; }
@@ -38,12 +38,12 @@ class SurfaceTree {
   std::uint32_t triangle_at(std::uint32_t place) const { return order_[place]; }
   const Aabb& box_at(std::uint32_t place) const { return boxes_[place]; }
   TriangleCorners corners(std::uint32_t triangle) const { return corners(triangle, vertices_); }
-  /// The corners in another set of positions of the same mesh.
+  /// The corners at other positions of the same mesh.
   TriangleCorners corners(std::uint32_t triangle, std::span<const Vec3> vertices) const {
     const Triangle& t = triangles_[triangle];
     return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
   }
-  /// True when every node's box holds its children's and every leaf's its triangles'.
+  /// True when every node's box contains its children's and every leaf's its triangles'.
   bool validate() const;
 
  private:
@@ -56,8 +56,8 @@ class SurfaceTree {
   std::span<const Vec3> vertices_;
 };
 
-/// Calls `visit(triangle)` for every triangle whose closed box satisfies `meets(box)`; `meets` must
-/// hold for a box whenever it holds for a box inside it. Stops and returns true when `visit` does.
+/// Calls `visit(triangle)` for triangles whose closed box satisfies `meets(box)`. If `meets`
+/// accepts a box, it must accept every box around it. Stops and returns true when `visit` does.
 template <typename Meets, typename Visit>
 bool any_triangle(const SurfaceTree& tree, Meets&& meets, Visit&& visit, std::uint32_t index = 0) {
   const SurfaceTree::Node& node = tree.node(index);
@@ -91,8 +91,8 @@ template <typename Visit>
 bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std::uint32_t i = 0,
                   std::uint32_t j = 0);
 
-/// Calls `visit(triangle, triangle)` for every two triangles of the surface whose closed boxes
-/// overlap, once, in either order. Stops and returns true when `visit` does.
+/// Calls `visit(triangle, triangle)` once for every two triangles of the surface whose closed boxes
+/// overlap, in either order. Stops and returns true when `visit` does.
 template <typename Visit>
 bool any_own_box_pair(const SurfaceTree& tree, Visit&& visit, std::uint32_t index = 0) {
   const SurfaceTree::Node& node = tree.node(index);
@@ -107,7 +107,7 @@ bool any_own_box_pair(const SurfaceTree& tree, Visit&& visit, std::uint32_t inde
   return false;
 }
 
-/// Calls `visit(triangle of a, triangle of b)` for every pair whose closed boxes overlap, once.
+/// Calls `visit(triangle of a, triangle of b)` once for every pair whose closed boxes overlap.
 /// Stops and returns true when `visit` does.
 template <typename Visit>
 bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std::uint32_t i,

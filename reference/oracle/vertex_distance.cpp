@@ -39,7 +39,7 @@ double largest_of(const TriangleCorners& t) {
       {t[0].cwiseAbs().maxCoeff(), t[1].cwiseAbs().maxCoeff(), t[2].cwiseAbs().maxCoeff()});
 }
 
-// Of the points of a segment, the one nearest to the origin, up to rounding.
+// The point of a segment that is nearest to the origin, up to rounding.
 Vec3 nearest_on_edge(const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
   const double along = -d.dot(a), length2 = d.squaredNorm();

@@ -1,6 +1,6 @@
-// How far a vertex is from one triangle or box: in double with proven bounds, or exactly.
+// The distance from a vertex to one triangle or box: in double with proven bounds, or exact.
 //
-// Degenerate triangles are the segment or the point that they are.
+// A degenerate triangle is treated as a segment or a point.
 #pragma once
 
 #include "core/types/vec3.h"
@@ -18,13 +18,13 @@ struct NearestPoint {
   double lower = 0.0, upper = 0.0;  ///< lower <= true distance <= upper
 };
 
-/// Mostly 1e-13 of the offsets' size wide; wider for slivers and where the vertex nearly touches
-/// an edge. Where the largest offset to a corner is not within [2^-200, 2^200] (0 included) it
-/// knows nothing: lower is 0 and upper is infinite.
+/// Mostly 1e-13 of the offsets' size wide; wider for slivers and if the vertex nearly touches an
+/// edge. If the largest offset to a corner is outside [2^-200, 2^200] (0 included), lower is 0 and
+/// upper is infinite.
 NearestPoint nearest_point(const Vec3& vertex, const TriangleCorners& triangle);
 
-/// The nearest point itself, each coordinate rounded, and bounds a few units in the last place
-/// wide (2e-154 at most below 1e-150). Some hundred times slower.
+/// The nearest point itself, each coordinate rounded, and bounds a few units in the last place wide
+/// (2e-154 at most below 1e-150). A few hundred times slower.
 /// @pre the squares of the offsets are finite
 NearestPoint exact_nearest_point(const Vec3& vertex, const TriangleCorners& triangle);
 

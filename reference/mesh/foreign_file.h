@@ -1,4 +1,4 @@
-// Meshes of the formats that we do not read ourselves, through assimp.
+// Reads other mesh formats through assimp.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace contactcheck::mesh {
 
-/// Coordinates are floats (assimp 5.2.5), and the notes say so. Node transforms are applied, the
-/// meshes of the file become one, and vertices at bit-identical places become one: such formats
-/// split a vertex for each of its normals and texture coordinates, which would tear a closed
-/// surface open. Nothing else is joined, unlike assimp's own joining, which merges what is within
-/// 1e-6. Animations are left out, with a note. `name`: "mesh file \"a.glb\"".
+/// Coordinates are floats (assimp 5.2.5), and the notes say so. Node transforms are applied and all
+/// meshes of the file become one. Vertices at bit-identical places become one: such formats split a
+/// vertex for each of its normals and texture coordinates, which would open a closed surface.
+/// Nothing else is joined; assimp's own joining merges vertices within 1e-6. Animations are left
+/// out, with a note. `name`: "mesh file \"a.glb\"".
 /// @throws InputError with assimp's reason and the formats that can be read
 LoadedMesh read_foreign_file(const std::filesystem::path& file, const std::string& name);
 

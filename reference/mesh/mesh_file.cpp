@@ -26,7 +26,7 @@ std::optional<SoupFormat> format_of(const std::filesystem::path& file) {
   return std::nullopt;
 }
 
-// Of STL: points at equal coordinates become the first of them.
+// For STL: points at equal coordinates become the first of them.
 void join_corners(PolygonSoup& soup) {
   const std::vector<std::uint32_t> first = first_at_place(soup.points);
   std::vector<std::uint32_t> joined(soup.points.size());

@@ -1,4 +1,4 @@
-// How a scene file describes a body's mesh, and building it.
+// A body's mesh in a scene file, and building it.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct MeshSpec {
   enum class Source { kDataset, kFile, kShape };
 
   Source source = Source::kShape;
-  std::string name;                      ///< dataset, path of the file as resolved, or shape
+  std::string name;                      ///< dataset, resolved path of the file, or shape
   std::size_t divisions = 0;             ///< shapes only
   std::array<double, 3> sides = {};      ///< box only, metres
   double tube = 0.0;                     ///< torus only
@@ -32,16 +32,16 @@ struct MeshSpec {
   std::optional<double> scale;           ///< or multiply all coordinates by this
   std::optional<std::array<double, 3>> center;  ///< then move the box's centre here
   Folded folded = Folded::kLeftOut;             ///< files only: "repair"
-  bool weld = false;  ///< vertices at one place are one where neighbours are told from contacts
+  bool weld = false;  ///< self-contact treats vertices at one place as one vertex
 
   bool operator==(const MeshSpec&) const = default;
 };
 
-/// `folder`: where relative "file" paths start.
+/// `folder`: the base of relative "file" paths.
 MeshSpec parse_mesh_spec(const text::JsonField& field, const std::filesystem::path& folder);
 
-/// Loads, simplifies, scales and moves. `field` is the place that is named when the mesh does not
-/// fit the spec (simplifying to more triangles than there are).
+/// Loads, simplifies, scales and moves. `field` is named in the error if the mesh does not fit the
+/// spec (simplifying to more triangles than there are).
 /// @throws InputError
 LoadedMesh build_mesh(const MeshSpec& spec, const text::JsonField& field);
 

@@ -49,7 +49,7 @@ class ObjReader {
   struct Ahead {
     std::size_t face, vertex;
   };
-  /// Lines of one keyword that is not known.
+  /// The lines of one unknown keyword.
   struct LeftOut {
     std::string keyword;
     std::size_t lines, first_line;
@@ -93,7 +93,7 @@ class ObjReader {
     soup_.ends.push_back(soup_.corners.size());
   }
 
-  // Of "7", "7/1" or "-4//3"; a negative one counts back from the last vertex so far.
+  // The vertex of "7", "7/1" or "-4//3"; a negative number counts back from the last vertex so far.
   std::uint32_t corner(std::string_view word) {
     std::string_view index = word.substr(0, word.find('/'));
     if (index.size() > 1 && index[0] == '+' && index[1] != '-') index.remove_prefix(1);

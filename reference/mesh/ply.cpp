@@ -293,7 +293,7 @@ class PlyReader {
     return word;
   }
 
-  // Whole numbers with decimals are written under all types by some programs: nobody reads these.
+  // Some programs write whole numbers with decimals; values that are not used may have them.
   void leave_out(std::string_view word) const {
     if (!looks_like_a_number(word))
       refuse(": " + place() + " has " + quoted_word(word) + " in place of a number");

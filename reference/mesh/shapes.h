@@ -1,5 +1,5 @@
-// Built-in shapes: closed, edge-manifold, consistently oriented triangle meshes, centred on the
-// origin. Only additions, products, quotients and square roots: the same bits on every machine.
+// Built-in shapes: consistently oriented triangle meshes, closed and edge-manifold except sheet and
+// teapot. Only sums, products, quotients and square roots: the same bits on every machine.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace contactcheck::mesh {
 
 // Extruded letters, some with holes, some concave: the bodies of the paper's alphabet scene.
 
-/// All letters there are: "ABCDEHILOPRTU".
+/// All available letters: "ABCDEHILOPRTU".
 const std::string& known_letters();
 
 /// A letter in the xy plane, extruded along z to `depth` (above 0): closed, edge-manifold,
@@ -27,15 +27,15 @@ TriangleMesh make_letter(char letter, double depth, std::size_t divisions);
 
 // The Utah teapot, from the 32 bicubic Bezier patches that Debian's povray-examples ships.
 
-/// Points closer than this, in each coordinate, become one vertex; in the patches' own unit, of
-/// which the teapot is 6.4 long. Anything from 1e-9 to 1e-4 gives the same mesh; at 0, patches that
-/// meet with different rounding stay torn (3,277 vertices instead of 3,241).
+/// Points closer than this, in each coordinate, become one vertex; in the unit of the patches, in
+/// which the teapot is 6.4 long. Any value from 1e-9 to 1e-4 gives the same mesh; at 0, patches
+/// that meet with different rounding stay open (3,277 vertices instead of 3,241).
 inline constexpr double kTeapotWeld = 1e-6;
 
-/// divisions x divisions squares of two triangles per patch, z up, in the patches' own unit. With
-/// 10 divisions 3,241 vertices and 6,400 triangles: the paper's teapot, of which 80 triangles have
-/// no area (patches that end in a point) and 160 edges lie on a boundary, so it is no solid.
-/// `seams`: patches share no vertex; those that meet have vertices at the same places, bit for bit.
+/// divisions x divisions squares of two triangles per patch, z up, in the unit of the patches. With
+/// 10 divisions: 3,241 vertices and 6,400 triangles, the paper's teapot. 80 triangles have no area
+/// (patches that end in a point) and 160 edges lie on a boundary, so it is not a solid. `seams`:
+/// patches share no vertex; those that meet have bit-identical vertices there.
 /// @pre divisions >= 1
 /// @throws InputError when povray-examples is missing or does not hold 32 patches
 TriangleMesh make_teapot(std::size_t divisions,

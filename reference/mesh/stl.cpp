@@ -24,7 +24,7 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
   return std::ranges::equal(word, keyword, {}, [](char c) { return text::lower_case(c); });
 }
 
-// Of a binary file, whatever its first 80 bytes say. No text has bytes of 0.
+// The count in a binary file's header, behind 80 bytes of any content. Text has no zero bytes.
 std::size_t claimed_triangles(std::string_view bytes) { return little_endian(bytes, kHeader - 4); }
 
 bool is_text(std::string_view bytes) {

@@ -1,4 +1,4 @@
-// Fewer or more triangles on the same surface.
+// Simplifies or subdivides a mesh.
 #pragma once
 
 #include <cstddef>
@@ -7,23 +7,23 @@
 
 namespace contactcheck::mesh {
 
-/// At most `triangles` triangles (edge collapses stop at or just below the wish, or above it where
-/// the surface's topology allows no more). Kept vertices keep their doubles: meshoptimizer picks
-/// among the given vertices, and floats serve its error measure alone. Vertices without a triangle
-/// are dropped; the order of the rest is kept. Deterministic.
+/// Simplifies to at most `triangles` triangles (just below it, or above it if the surface's
+/// topology allows no more edge collapses). Kept vertices keep their doubles: meshoptimizer selects
+/// among the given vertices, and floats are used only for its error measure. Vertices without a
+/// triangle are dropped; the order of the rest is kept. Deterministic.
 ///
-/// Where copies of a vertex, such as those of texture seams, keep it above the wish, vertices with
-/// equal coordinates are one: the result has fewer triangles then, and no copies.
+/// If copies of a vertex, such as those of texture seams, keep the count above `triangles`,
+/// vertices with equal coordinates become one; the result then has fewer triangles and no copies.
 ///
-/// meshoptimizer 0.18 may fold thin parts together into a non-manifold edge. For a solid mesh, when
-/// a direct simplification does so, a few that stop at a larger count in between are tried, and the
-/// first solid result of the same size is taken; without one, the direct result stands.
+/// meshoptimizer 0.18 may fold thin parts together into a non-manifold edge. If that happens to a
+/// solid mesh, simplifications in two steps are tried, and the first solid result of the same size
+/// is returned; without one, the direct result.
 /// @pre no fatal defect; triangles >= 1. A mesh with no more than `triangles` is returned as it is.
 TriangleMesh simplify(const TriangleMesh& mesh, std::size_t triangles);
 
-/// Splits every triangle into four at the midpoints of its edges, `times` over. Triangles that
+/// Splits every triangle into four at the midpoints of its edges, `times` times. Triangles that
 /// share an edge share its midpoint; given vertices come first and keep their doubles. The surface
-/// stays where it was, up to the rounding of midpoints.
+/// does not change, up to the rounding of midpoints.
 TriangleMesh subdivide(TriangleMesh mesh, std::size_t times);
 
 }  // namespace contactcheck::mesh

@@ -14,8 +14,8 @@ bool ends_line(char c) { return c == '\n' || c == '\r'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// Of a number that no Real can hold: whether it is too small for it, and so rounds to 0. Nothing
-// else is out of range: the first digit other than 0 stands for less than 1.
+// For a number out of Real's range: true if it is too small and rounds to 0, which is so exactly if
+// its first digit other than 0 stands for less than 1.
 bool is_tiny(std::string_view digits) {
   const std::size_t exponent_at = std::min(digits.find_first_of("eE"), digits.size());
   const std::string_view mantissa = digits.substr(0, exponent_at);

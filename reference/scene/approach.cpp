@@ -21,7 +21,7 @@ oracle::DistanceInterval RigidPair::distance(const Vec3& offset) {
 
 namespace {
 
-// Of the smaller body's largest side.
+// Relative to the smaller body's largest side.
 constexpr double kDepths[] = {0.08, 0.02, 0.005, 0.00125};
 // Of a depth: how closely contact is watched on the path in, and how far to the sides it must hold.
 constexpr double kShareStep = 1.0 / 8.0, kAside = 1.0 / 4.0;

@@ -1,5 +1,5 @@
-// How one body comes to another that rests, so that they really meet: along an axis, from where a
-// plane separates them, until their surfaces cross.
+// The path on which one body approaches another that rests: along an axis, from where a plane
+// separates them until their surfaces cross.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,19 @@
 
 namespace contactcheck::scene {
 
-/// Two rigid bodies, one of which is moved: their distance, and whether they touch.
+/// Two rigid bodies, the second of which is moved: their distance, and whether they touch.
 class RigidPair {
  public:
   /// @pre a triangle uses each vertex
   /// @throws InputError when a mesh has a fatal defect
   RigidPair(const TriangleMesh& resting, const TriangleMesh& moved);
 
-  /// Other vertices of the moved body, from which offsets count. @pre as many as its mesh has
+  /// Replaces the vertices of the moved body; offsets count from them. @pre as many as its mesh has
   void turn(std::vector<Vec3> vertices) { turned_ = std::move(vertices); }
   const std::vector<Vec3>& resting() const { return resting_; }
   const std::vector<Vec3>& moved() const { return turned_; }
 
-  /// Certified, with the moved body at this offset: 0 exactly when the surfaces share a point.
+  /// The certified distance, metres, with the moved body at `offset`; exactly 0 if they touch.
   oracle::DistanceInterval distance(const Vec3& offset);
   bool touches(const Vec3& offset) { return distance(offset).upper == 0.0; }
 
@@ -40,23 +40,23 @@ struct AxisDirection {
   bool operator==(const AxisDirection&) const = default;
 };
 
-/// Places are of the centre of the moved body's box, metres; the other's is the origin.
+/// Positions, metres, are of the centre of the moved body's box; the other centre is the origin.
 struct Approach {
-  AxisDirection from;               ///< seen from the resting body
+  AxisDirection from;               ///< direction seen from the resting body
   std::optional<int> turned_about;  ///< the moved body is turned by 90 degrees about this axis
-  Vec3 separated = Vec3::Zero();    ///< from here on, a plane across `from` separates the two
+  Vec3 separated = Vec3::Zero();    ///< the plane across `from` separates the two from here on
   Vec3 meeting = Vec3::Zero();      ///< `depth` beyond the place where the surfaces first touch
   double depth = 0.0;               ///< metres along `from`, above 0
-  /// Moved a little to any side, the surfaces still meet: no question of rounding.
+  /// The surfaces still meet if the body moves a little sideways, so rounding does not decide.
   bool robust = false;
 };
 
-/// The first that is robust among the directions, aims (box centre at box centre, foremost point at
-/// foremost point) and turns, with the largest depth that one allows: 8 % of the smaller
-/// body's largest side, or 2 %, 0.5 %, 0.125 %. One that is not robust where no other is found, and
-/// nothing where the surfaces do not meet over any of these depths.
-/// @pre the centre of each mesh's box is the origin, and no box is a point; a triangle uses each
-/// vertex; at least one direction
+/// Returns the first robust approach over all directions, aims (box centre to box centre, foremost
+/// point to foremost point) and turns, at the largest depth that has one: 8 %, 2 %, 0.5 % or 0.125
+/// % of the smaller body's largest side. Without a robust one returns another; nothing if the
+/// surfaces meet at none of these depths.
+/// @pre the centre of each mesh's box is the origin; no box is a point; each vertex is used by a
+/// triangle; at least one direction
 /// @throws InputError when a mesh has a fatal defect
 std::optional<Approach> find_approach(const TriangleMesh& resting, const TriangleMesh& moved,
                                       const std::vector<AxisDirection>& directions);

@@ -1,4 +1,4 @@
-// The space that a point cache is in, found by comparing its first sample with the mesh.
+// The coordinate system of a point cache, found by comparing its first sample with the mesh.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace contactcheck::scene {
 
-/// Swaps and turns axes, then moves: new[i] = sign[i] old[axis[i]] + offset[i].
+/// Permutes and mirrors axes, then translates: new[i] = sign[i] old[axis[i]] + offset[i].
 struct SpaceChange {
   std::array<int, 3> axis = {0, 1, 2};
   std::array<double, 3> sign = {1.0, 1.0, 1.0};
@@ -19,16 +19,16 @@ struct SpaceChange {
   bool turns() const { return axis != std::array{0, 1, 2} || sign != std::array{1.0, 1.0, 1.0}; }
   bool moves() const { return offset != Vec3::Zero(); }
   bool is_identity() const { return !turns() && !moves(); }
-  /// Bits of coordinates stay where nothing moves.
+  /// Coordinates that no part of the change affects keep their bits.
   void apply(std::vector<Vec3>& points) const;
   /// "axes x z -y, moved by (1, 0, 0)"
   std::string described() const;
 };
 
-/// The change that leads `points` to `mesh`, within 1e-6 of the mesh's largest side in each
-/// coordinate: none, else one of the 48 of axes, else one with an offset. Turns are tried before
-/// reflections, those about x first. Nothing where none does, or where several turns do (points on
-/// a line). @pre as many points as vertices, all finite
+/// The change that maps `points` to `mesh`, within 1e-6 of the mesh's largest side in each
+/// coordinate: the identity, else one of the 48 permutations and mirrorings, else one with an
+/// offset. Rotations are tried before reflections, those about x first. Nothing if no change fits,
+/// or several rotations do (points on a line). @pre as many points as vertices, all finite
 std::optional<SpaceChange> space_change(const std::vector<Vec3>& points,
                                         const std::vector<Vec3>& mesh);
 

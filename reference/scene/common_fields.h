@@ -1,4 +1,4 @@
-// What scene files and families of cases have in common.
+// Fields that scene files and files of case families share.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace contactcheck::scene {
 /// An array of names of levels, at least one, all different. @throws InputError
 std::vector<Level> parse_levels(const text::JsonField& field);
 
-/// What there is to say of a shape whose mesh had `notes`: vertices dropped, and defects.
+/// The notes of a shape: `notes` of its mesh, vertices dropped, defects.
 std::string shape_notes(const BodyShape& shape, std::string notes = "");
 
-/// A name that no body has yet. @throws InputError
+/// A body name that is not yet in `bodies`. @throws InputError
 std::string parse_body_name(const text::JsonField& field, const std::vector<Body>& bodies);
 
 }  // namespace contactcheck::scene

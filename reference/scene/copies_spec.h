@@ -1,4 +1,4 @@
-// Many bodies from one description: a grid of copies that share the shape.
+// A grid of bodies from one description; the copies share the shape.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ struct CopiesSpec {
 
   std::array<std::size_t, 3> counts = {1, 1, 1};
   Vec3 spacing = Vec3::Zero();  ///< metres, from copy to copy along each axis
-  double turn_degrees = 0.0;    ///< copy i is turned by i times this about y, before all spins
-  double delay = 0.0;           ///< seconds: copy i moves as the first did i delays ago
+  double turn_degrees = 0.0;    ///< copy i is turned by i times this about y, before its spins
+  double delay = 0.0;           ///< seconds: copy i moves as the first did i delays earlier
 
   std::size_t count() const { return counts[0] * counts[1] * counts[2]; }
 };

@@ -1,4 +1,4 @@
-// What drawn scenes are drawn from: fixtures/drawn.json, or a file of the user's own
+// The rules that scenes are drawn from: fixtures/drawn.json, or a file of the user
 // (fixtures/README.md, "Drawn scenes").
 #pragma once
 
@@ -24,19 +24,19 @@ struct DrawRules {
   std::string title;
   std::vector<std::string> detectors, meshes;  ///< meshes: data sets and built-in shapes
   std::array<double, kHappenings.size()> shares = {};
-  std::size_t most_triangles = 0;                     ///< of a scene
+  std::size_t most_triangles = 0;                     ///< per scene
   DrawRange triangles, cells;                         ///< per body, log-uniform
   DrawRange bodies, size_ratio;                       ///< log-uniform
-  DrawRange frames, speed, contact_share, deformers;  ///< speed: of the largest body, a frame
+  DrawRange frames, speed, contact_share, deformers;  ///< speed: of the largest body, per frame
   DrawRange twist, bend, taper, stretch;              ///< degrees, degrees, amounts
-  /// Of the smaller body's size, the last log-uniform as are the depths.
+  /// In the smaller body's size, log-uniform.
   DrawRange apart_gap, near_gap, graze_depth, touch_depth, deep_depth;
 };
 
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 DrawRules parse_draw_rules(const std::string& text, const std::string& document);
 
-/// Whether a JSON document is meant to be rules.
+/// True if a JSON document contains draw rules.
 bool holds_draw_rules(const text::JsonValue& document);
 
 }  // namespace contactcheck::scene

@@ -1,7 +1,6 @@
-// Scenes drawn from a seed: ordinary scenes, as a scene file would describe them, that nobody
-// chose. Their frames have the same bits on every machine: seeded_random.h, portable sines and
-// square roots, meshes of shapes and packages. (Not those of simplified meshes where meshoptimizer
-// is another version.)
+// Random scenes drawn from a seed; each equals what a scene file could describe. Their frames have
+// the same bits on every machine, thanks to seeded_random.h, portable sines and square roots, and
+// meshes of shapes and packages. (Simplified meshes depend on the version of meshoptimizer.)
 #pragma once
 
 #include <cstddef>
@@ -19,31 +18,30 @@ inline constexpr std::size_t kMostRedraws = 5;
 /// "drawn-7-3": the third scene of seed 7.
 std::string drawn_id(const DrawnSpec& spec);
 
-/// What is drawn before anything is built: cheap.
+/// Draws the parameters without building anything, which is fast.
 /// @throws InputError for bad rules
 Drawn draw_parameters(const DrawnSpec& spec);
 
 struct DrawnScene {
   Scene scene;
-  SceneText text;  ///< of the scene file that gives the same frames, bit for bit
+  SceneText text;  ///< the scene file that gives the same frames, bit for bit
 };
 
-/// Bodies are placed one after the other. Each is turned at random and comes along one of the axes
-/// of a frame that is itself turned at random, aside of a body that stands already, to where it
-/// first touches any that stand; it is set back by a gap, or forward by a depth, in each frame
-/// anew, since all deform and turn. Outside the frames of the contact it moves away with the drawn
-/// speed. Where something meets, it does in every frame of the contact: by an exact test, or the
-/// depth is halved. What is nested lies inside a ball or box, which hold it whatever it is.
-/// `folder`: where the text is to lie; it names the meshes of `spec` from there. None: as `spec`
-/// has them.
-/// @throws InputError for bad rules, and for a mesh that cannot be loaded or put into a lattice
+/// Bodies are placed one after another. Each is rotated at random and comes along an axis of a
+/// randomly rotated frame, beside a body that is already placed, to where it first touches a placed
+/// one. Then it is moved back by a gap or forward by a depth, in each frame anew, since all bodies
+/// deform and rotate. Outside the contact frames it moves away at the drawn speed. Contact is
+/// enforced in every contact frame: by an exact test, or the depth is halved. A nested body lies
+/// inside a ball or box that is large enough for it. `folder`: the folder of the text, from which
+/// it names the meshes of `spec`; empty: unchanged names.
+/// @throws InputError for bad rules, and for a mesh that cannot be loaded or embedded in a lattice
 DrawnScene draw_scene(const DrawnSpec& spec, const std::filesystem::path& folder = {});
 
-/// Without its bodies: what the results say of a scene that passes a limit when it is made.
+/// The scene without bodies, for the results of a scene that exceeds a limit while it is made.
 /// @throws InputError for bad rules
 Scene unmade_scene(const DrawnSpec& spec);
 
-/// The mesh as a drawn scene would take it. @throws InputError, also when no lattice holds it
+/// Loads the mesh as a drawn scene would. @throws InputError, also if it fits into no lattice
 void check_drawn_mesh(const std::filesystem::path& mesh);
 
 }  // namespace contactcheck::scene

@@ -1,5 +1,5 @@
-// A simulation with a detector in the loop: the paper's whole step, part by part, so that each part
-// can be timed on its own.
+// A simulation with a detector in the loop: the paper's whole step in parts that can be timed
+// separately.
 // Source: Jeon, Hong, Choi, Jeong 2013, Tables 1 and 3 ("Updating MSS", "Updating CELL", collision
 // test, response).
 #pragma once
@@ -13,17 +13,17 @@
 
 namespace contactcheck::scene {
 
-/// Why a detector cannot drive a simulation (it says neither which cells nor which triangles are in
-/// contact), or "".
+/// Why a detector cannot drive a simulation (it reports neither cells nor triangles in contact), or
+/// "".
 std::string why_no_driver(const Semantics& semantics);
 
-/// The nodes of all bodies where they begin, with their velocities.
+/// The initial nodes of all bodies, with their velocities.
 /// @pre the scene is simulated
 std::vector<NodeState> start_of(const Scene& scene);
 
 class DrivenSimulation {
  public:
-  /// Prepares the detector. Scene and detector outlive this.
+  /// Prepares the detector. Scene and detector must outlive this object.
   /// @pre the scene is simulated
   /// @throws InputError when the detector cannot drive, or a body is too stiff
   DrivenSimulation(const Scene& scene, Detector& detector);
@@ -32,13 +32,13 @@ class DrivenSimulation {
   void deform();  ///< MSS: springs, gravity, ground. @throws Diverged
   void
   update_cells();  ///< CELL: maps every vertex, as a viewer needs them, and updates the detector
-  void test();     ///< the detector's own question
-  void respond();  ///< impulses and corrections at what it reported
+  void test();     ///< queries the detector
+  void respond();  ///< impulses and corrections at the reported contacts
   void step();     ///< all four
 
-  /// What the detector was given in the last step: the state after deform() and before respond().
+  /// The detector's input in the last step: the state after deform() and before respond().
   const std::vector<std::vector<Vec3>>& nodes() const { return nodes_; }
-  /// What it answered, canonical.
+  /// The detector's answer, canonical.
   const ContactSet& contacts() const { return contacts_; }
 
   Simulation& simulation() { return simulation_; }

@@ -1,5 +1,5 @@
-// Where a surface that comes along an axis first touches another one, in doubles: to place bodies,
-// not to judge them.
+// Where a surface that approaches along an axis first touches another one, in doubles: used to
+// place bodies, not to judge them.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,13 @@
 
 namespace contactcheck::scene {
 
-/// A surface, moved by an offset from where its vertices and boxes say. References to what the
-/// caller keeps.
+/// A surface with an offset added to its vertices and boxes. Refers to the caller's data.
 struct OffsetSurface {
   std::span<const Vec3> vertices;
   const AabbTree& boxes;  ///< fitted to the vertices
   Vec3 offset;
 
-  // Volumes of traverse_pairs().
+  // The interface that traverse_pairs() needs.
   const TriangleTree& tree() const { return boxes.tree(); }
   double size(std::uint32_t node) const { return boxes.size(node); }
   Aabb box(std::uint32_t node) const {
@@ -29,14 +28,13 @@ struct OffsetSurface {
   }
 };
 
-/// The largest s such that `moving`, further moved by s along the direction `from`, touches
-/// `resting`: where it first does as it comes from far away. Only what is above `beyond`; nothing
-/// where it passes by. Within rounding, and with the same bits whatever the trees are. Triangles
-/// that are seen edge on are left out.
+/// The largest s such that `moving`, translated by s along `from`, touches `resting`: the first
+/// touch when it comes from far away. Only values above `beyond`; nothing if it passes by. Exact up
+/// to rounding, with the same bits for all trees. Triangles seen edge-on are left out.
 std::optional<double> first_touch(const OffsetSurface& resting, const OffsetSurface& moving,
                                   const AxisDirection& from, double beyond);
 
-/// Exactly: whether they share a point where they are.
+/// Exact: true if the surfaces share a point at their offsets.
 bool surfaces_touch(const OffsetSurface& a, const OffsetSurface& b);
 
 }  // namespace contactcheck::scene

@@ -1,4 +1,4 @@
-// Files that a simulation has written, named one by one: which of them are the frames of one body.
+// Which of the named files of a simulation are the frames of one body.
 #pragma once
 
 #include <filesystem>
@@ -10,34 +10,34 @@
 namespace contactcheck::scene {
 
 struct FrameRules {
-  /// "{body}_{frame}.obj", ends of paths: {frame} stands for the number of the frame (-2, 0007,
-  /// 0.25), {body} for any part of a name. Without {frame} every file is a body at rest. Where one
-  /// is given, files that match none are at rest, too.
+  /// "{body}_{frame}.obj", matched against ends of paths: {frame} is the number of the frame (-2,
+  /// 0007, 0.25), {body} any part of a name. Without {frame} every file is a body at rest. If
+  /// patterns are given, files that match none are at rest too.
   std::vector<std::string> patterns;
   bool repair = false;      ///< see mesh::Folded
   std::string cache_space;  ///< "file", "mesh" or empty: see CacheSpace
 };
 
 struct FrameFiles {
-  SceneText scene;                     ///< of recorded frames (fixtures/README.md)
+  SceneText scene;                     ///< with recorded frames (fixtures/README.md)
   std::vector<std::string> labels;     ///< by frame: the file of the first body that has several
-  std::vector<std::string> shown;      ///< by body: its files, as in a shell: "cloth_*.obj"
-  std::vector<std::string> unchecked;  ///< files of frames that not every body has
+  std::vector<std::string> shown;      ///< by body: its files as a shell pattern: "cloth_*.obj"
+  std::vector<std::string> unchecked;  ///< files of frames that some body lacks
 };
 
-/// Which mesh files are frames of one body, and which number is the frame's. Files whose paths
-/// differ in numbers alone (and in the case of the extension) are told apart by these:
-/// - one of them differs: it is the frame's, unless it stands right behind letters ("ball1") or in
-///   a folder, where it may as well count bodies; "frame", "time", "step" and their like before it
-///   say that it is the frame's;
-/// - several differ: the one with such a word, else the only one with leading zeros.
-/// What has two readings is refused with both. Numbers may be negative, where no letter stands
-/// before the sign, and decimal behind "t" or "time".
-/// Frames of several bodies are those of one number; a body with one number alone stands still. A
-/// point cache (PC2, MDD) moves the mesh that is named before it. Bodies are named after their
-/// files, or after folders where names are alike. `id`: of the scene.
-/// @throws InputError, one sentence: two readings, numbers with a gap or twice, no number that all
-/// bodies have, a pattern that no file matches, a cache without a mesh
+/// Finds the mesh files that are frames of one body, and the number of each frame. If paths differ
+/// only in numbers (and in the case of the extension):
+/// - One number differs: it is the frame's, unless it follows letters directly ("ball1") or is in a
+///   folder, where it may count bodies; "frame", "time", "step" and similar words before it make it
+///   the frame's.
+/// - Several differ: the one with such a word, else the only one with leading zeros. An ambiguous
+///   list is refused with both readings. Numbers may be negative if no letter precedes the sign,
+///   and decimal after "t" or "time". Bodies share the frames with the same number; a body with one
+///   number only is at rest. A point cache (PC2, MDD) moves the mesh that is named before it.
+///   Bodies are named after their files, or after folders if the names are equal. `id`: of the
+///   scene.
+/// @throws InputError, one sentence: an ambiguous list, a missing or repeated number, no number
+/// common to all bodies, a pattern that matches no file, a cache without a mesh
 FrameFiles frame_files(const std::vector<std::filesystem::path>& files, const FrameRules& rules,
                        const std::string& id, const std::vector<Level>& levels);
 

@@ -1,4 +1,4 @@
-// Where all nodes and vertices of a scene are, frame by frame.
+// The nodes and vertices of a scene, frame by frame.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@ struct FramePosition {
   std::vector<std::vector<Vec3>> vertices;  ///< [body], canonical mapping
 };
 
-/// The canonical mapping of every body.
+/// Maps every body by its nodes, [body][node], to vertices, [body][vertex].
 std::vector<std::vector<Vec3>> map_bodies(const Scene& scene,
                                           const std::vector<std::vector<Vec3>>& nodes);
 
-/// A frame is evaluated when it is asked for, and only the last one is held: all of them are more
-/// memory than all detectors together, and mapping one again takes less time than any detector.
+/// Evaluates a frame on demand and caches only the last one: all frames need more memory than all
+/// detectors together, and mapping one again takes less time than any detector.
 class FramePositions {
  public:
   FramePositions() = default;
-  /// `scene` must outlive it.
+  /// `scene` must outlive this object.
   explicit FramePositions(const Scene& scene);
 
-  /// Valid until another frame is asked for. @pre the scene has this frame
+  /// The reference is valid until another frame is requested. @pre the scene has this frame
   const FramePosition& operator[](std::size_t frame) const;
 
  private:

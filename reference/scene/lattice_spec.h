@@ -1,4 +1,4 @@
-// How a scene file describes a body's lattice, and building the shape in it.
+// A body's lattice in a scene file, and building its shape.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@ struct LatticeSpec {
 
   Kind kind = Kind::kNone;
   std::array<std::size_t, 3> cells = {};  ///< kCells: per axis
-  std::size_t kept = 0;                   ///< kKept: wanted number of kept cells
+  std::size_t kept = 0;                   ///< kKept: requested number of kept cells
   double padding = 0.0;                   ///< fraction of the largest side, on each side
-  bool fit = false;                       ///< to a recording
+  bool fit = false;                       ///< fitted to a recording
   double smoothing = 0.0;                 ///< of the fit (lattice_fit.h)
 
   bool operator==(const LatticeSpec&) const = default;
 };
 
-/// `recorded`: beside a recording, to which every lattice is fitted and has to say so.
+/// `recorded`: the body has a recording; then every lattice must have "fit".
 LatticeSpec parse_lattice_spec(const text::JsonField& field, bool recorded = false);
 
 /// @throws InputError when the mesh has a fatal defect

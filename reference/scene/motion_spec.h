@@ -1,4 +1,4 @@
-// How a scene file describes a body's motion (fixtures/README.md, "Scenes").
+// A body's motion in a scene file (fixtures/README.md, "Scenes").
 #pragma once
 
 #include "core/deform/body.h"
@@ -7,12 +7,11 @@
 
 namespace contactcheck::scene {
 
-/// The motion of a body with this shape. Where no position is given, the body's rest box keeps its
-/// place.
+/// The motion of a body with this shape. Without a position, the body's rest box keeps its place.
 /// @throws InputError
 Motion parse_motion(const text::JsonField& field, const BodyShape& shape);
 
-/// No deformer, no spin, no position: the body rests, bit for bit.
+/// True without deformer, spin and position: the body rests, bit for bit.
 bool is_rest(const Motion& motion);
 
 }  // namespace contactcheck::scene

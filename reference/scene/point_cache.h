@@ -1,4 +1,4 @@
-// Point caches: positions of the same points, sample by sample, as animation programs write them.
+// Point caches: positions of the same points per sample, as animation programs write them.
 //
 // PC2 (Point Cache 2), little-endian: "POINTCACHE2" and a zero byte, int32 version (1), int32
 // points, float first frame, float frames per sample, int32 samples; then per sample x y z of each
@@ -20,18 +20,18 @@ enum class CacheFormat { kPc2, kMdd };
 
 class PointCache {
  public:
-  /// `name` stands for the file in messages: "point cache \"cloth.pc2\"".
-  /// @throws InputError, one sentence, when the header is not that of the format, holds a number
-  /// that is not finite, or the bytes are not as many as its counts ask for (before anything is
-  /// allocated for them)
+  /// `name` denotes the file in messages: "point cache \"cloth.pc2\"".
+  /// @throws InputError, one sentence, if the header does not match the format or contains a
+  /// non-finite number, or if the number of bytes differs from what its counts need (checked before
+  /// any allocation)
   PointCache(CacheFormat format, std::string bytes, std::string name);
 
   std::size_t points() const { return points_; }    ///< at least 1
   std::size_t samples() const { return samples_; }  ///< at least 1
-  /// How many samples at the end are equal bit for bit; at least 1.
+  /// The number of samples at the end that are equal bit for bit; at least 1.
   std::size_t still_samples() const;
-  /// As in the file: floats, widened. @pre index < samples()
-  /// @throws InputError with sample and point where a coordinate is not finite
+  /// The points of a sample: floats of the file, widened. @pre index < samples()
+  /// @throws InputError with sample and point if a coordinate is not finite
   std::vector<Vec3> sample(std::size_t index) const;
 
  private:
@@ -49,10 +49,10 @@ class PointCache {
   std::size_t points_ = 0, samples_ = 0, begin_ = 0;
 };
 
-/// By the extension (any case).
+/// Decided by the extension (any case).
 bool is_point_cache(const std::filesystem::path& file);
 
-/// By the extension: .pc2 or .mdd (any case). @throws InputError
+/// Decided by the extension, .pc2 or .mdd (any case). @throws InputError
 PointCache read_point_cache(const std::filesystem::path& file);
 
 }  // namespace contactcheck::scene

@@ -1,4 +1,4 @@
-// The scene `random-pairs`: as many random hard pairs of triangles as one asks for, from a seed.
+// The scene `random-pairs`: a requested number of random hard pairs of triangles, from a seed.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace contactcheck::scene {
 
-/// Random numbers of a pair.
+/// The random numbers of one pair.
 class PairRandom {
  public:
-  /// Every stream of a seed is another sequence: any pair can be made without those before it.
+  /// Each stream of a seed is a separate sequence, so any pair can be made without those before it.
   PairRandom(std::uint64_t seed, std::uint64_t stream)
       : mix_(SplitMix64::mixed(SplitMix64::mixed(seed) + stream)) {}
 
   std::uint64_t bits() { return mix_.bits(); }
   /// Uniform in 0 .. count - 1 (up to a bias of count / 2^64).
   int below(int count) { return static_cast<int>(bits() % static_cast<std::uint64_t>(count)); }
-  /// Both ends included.
+  /// Uniform in least .. most.
   int between(int least, int most) { return least + below(most - least + 1); }
   bool coin() { return below(2) == 0; }
   /// Uniform in [low, high), in steps of (high - low) / 2^53.
@@ -35,9 +35,9 @@ class PairRandom {
   SplitMix64 mix_;
 };
 
-// Pairs of triangles that touch or just do not, each kind hard for another reason.
+// Pairs of triangles that touch or just do not; each kind is hard for another reason.
 
-/// Where two triangles all but touch, or what they are.
+/// Where two triangles nearly touch, or their shape.
 enum class PairKind {
   kVertexFace,    ///< a corner on a face
   kVertexEdge,    ///< a corner on an edge
@@ -54,7 +54,7 @@ enum class PairKind {
 constexpr std::size_t kPairKinds = 11;
 const char* name_of(PairKind kind);
 
-/// Where a pair is made: around `center`, the larger triangle about `size` metres.
+/// A pair is made around `center`; its larger triangle has a size of about `size` metres.
 struct PairPlace {
   Vec3 center = Vec3::Zero();
   double size = 1.0;
@@ -67,26 +67,26 @@ struct HardPair {
 /// No corner is farther from the center than this many sizes, along any axis.
 constexpr double kPairReach = 7.0;
 
-/// Points of contact are computed in double, so that they are off by rounding alone, then moved by
-/// up to two units in the last place in about half of the pairs. Additions, products, quotients and
-/// square roots of doubles alone: the same bits on every machine.
+/// Points of contact are computed in double, so they are off by rounding only; in about half of the
+/// pairs they are then moved by up to two units in the last place. Only additions, products,
+/// quotients and square roots are used: the same bits on every machine.
 HardPair make_hard_pair(PairKind kind, const PairPlace& place, PairRandom& random);
 
-/// The id of the scene that they make.
+/// The id of the scene.
 inline constexpr const char* kPairsSceneId = "random-pairs";
 constexpr std::uint64_t kMostPairs = 100'000'000;
 constexpr std::uint64_t kLargestPairSeed = (std::uint64_t{1} << 53) - 1;  ///< whole in every JSON
 
-/// Two bodies of kSlots separate triangles each; frame f gives pairs f * kSlots and on. Triangle i
-/// of the one and triangle i of the other are a pair in one slot, a box that is disjoint from all
-/// other slots: no other pairs can touch. Slots that are left over in the last
-/// frame contain two disjoint points.
+/// Two bodies of kSlots separate triangles each; frame f contains the pairs from f * kSlots on.
+/// Triangle i of one body and triangle i of the other are a pair in one slot, a box that is
+/// disjoint from all other slots, so no other pairs can touch. Unused slots of the last frame
+/// contain two disjoint points.
 ///
-/// Every frame has its scale (2^-30 to 2^30 m), its distance between slots (2^4 to 2^24 times the
-/// triangles' size) and its place (up to 2^16 times that distance from the origin). Every kind of
-/// pair is in every frame and, in turn, in every slot.
+/// Each frame has its scale (2^-30 to 2^30 m), its distance between slots (2^4 to 2^24 times the
+/// triangles' size) and its position (up to 2^16 times that distance from the origin). Every kind
+/// of pair occurs in every frame and, in turn, in every slot.
 ///
-/// Nothing is kept: a frame is made when it is asked for, the same each time.
+/// Nothing is stored: a frame is computed on demand, with the same result each time.
 class RandomPairs {
  public:
   static constexpr std::size_t kSlots = 576;
@@ -96,14 +96,14 @@ class RandomPairs {
 
   const PairSpec& spec() const { return spec_; }
   std::size_t frames() const;
-  /// Pairs of a frame: slots 0 to this - 1.
+  /// The number of pairs in a frame; they use slots 0 to this - 1.
   std::size_t pairs_of_frame(std::size_t frame) const;
   static PairKind kind_of(std::size_t frame, std::size_t slot);
   HardPair pair(std::size_t frame, std::size_t slot) const;
-  /// Both corners exact doubles; the pair lies strictly inside.
+  /// A box whose corners are exact doubles; the pair lies strictly inside.
   Aabb slot_box(std::size_t frame, std::size_t slot) const;
 
-  /// Of both bodies. Vertices are lattice nodes: any bits come through the mapping.
+  /// The shape of both bodies. Vertices are lattice nodes, so mapping keeps any bits.
   const std::shared_ptr<const BodyShape>& shape() const { return on_nodes_.shape; }
   /// [body][node]
   std::vector<std::vector<Vec3>> nodes(std::size_t frame) const;

@@ -1,4 +1,4 @@
-// The bodies of a scene whose deformation is recorded in files.
+// The bodies of a scene whose deformation comes from files.
 #pragma once
 
 #include <cstddef>
@@ -18,40 +18,40 @@
 
 namespace contactcheck::scene {
 
-// How a scene file describes a body's recorded deformation, and reading it.
+// The recorded deformation of a body in a scene file, and reading it.
 
-/// In which space a point cache has its points. Programs write caches in the space of the object
-/// or of the world, with y or z up, whatever the mesh is in.
+/// The coordinate system of a point cache. Programs write caches in object or world space, with y
+/// or z up, whatever the mesh uses.
 enum class CacheSpace {
   kCompared,  ///< that of the mesh, or another by one change of axes, if sample 0 says so: else
               ///< kFile
   kFile,      ///< that of the scene
-  kMesh       ///< by a change of axes and an offset that bring sample 0 to the mesh
+  kMesh       ///< mapped by a change of axes and an offset that bring sample 0 to the mesh
 };
 
 /// The "recording" of a body, all defaults filled in.
 struct RecordingSpec {
-  /// Paths as resolved. Numbered files: the number taken out, "cloth_" and ".obj" with 4 digits.
+  /// Resolved paths. Numbered files: the path around the number, "cloth_" and ".obj" with 4 digits.
   std::string before_number, after_number;
-  std::vector<std::string> files;  ///< or all of them, by frame
+  std::vector<std::string> files;  ///< or a list of files, by frame
   std::string cache;               ///< or a point cache
-  std::size_t digits = 0;          ///< at least this many, with leading zeros
+  std::size_t digits = 0;          ///< minimum number of digits, with leading zeros
   std::size_t first = 0, step = 1;
-  mesh::Folded folded = mesh::Folded::kLeftOut;  ///< of the first numbered file, as the mesh
-  double scale = 1.0;                            ///< of all coordinates, then
-  Vec3 translate = Vec3::Zero();                 ///< metres
+  mesh::Folded folded = mesh::Folded::kLeftOut;  ///< for the first numbered file, as for the mesh
+  double scale = 1.0;                            ///< multiplies all coordinates
+  Vec3 translate = Vec3::Zero();                 ///< metres, added after scaling
 
   CacheSpace cache_space = CacheSpace::kCompared;
 
   bool in_meshes() const { return cache.empty(); }
-  /// Which file or sample a frame is.
+  /// The number of the file or sample of a frame.
   std::size_t number_of(std::size_t frame) const { return first + frame * step; }
   std::string file_of(std::size_t frame) const;
-  /// That path up to the part which has the number: of "scans/f_%d/m.obj", the folder "scans/f_7".
+  /// The path up to the part with the number: for "scans/f_%d/m.obj" the folder "scans/f_7".
   std::filesystem::path numbered_part(std::size_t frame) const;
-  /// The frame whose numbered part has this name in its folder; nothing for other names.
+  /// The frame whose numbered part has this file name; nothing for other names.
   std::optional<std::size_t> frame_of(const std::string& name) const;
-  /// Every frame's vertices, and those at rest. Bits stay where nothing is asked for.
+  /// Scales and translates vertices, of frames or at rest. Bits stay the same if neither is set.
   void place(std::vector<Vec3>& vertices) const;
 };
 
@@ -62,25 +62,25 @@ RecordingSpec parse_recording_spec(const text::JsonField& field,
 /// The recorded frames of one body.
 class RecordedFrames {
  public:
-  /// Opens a point cache. `field` is that of the recording. @throws InputError
+  /// Opens a point cache. `field`: the recording's, for messages. @throws InputError
   RecordedFrames(RecordingSpec spec, const text::JsonField& field);
 
-  /// Frames that there are: samples or files from the first one on, or numbered ones without a gap,
-  /// whether or not they can be read. At most `most`. @throws InputError when there is none, and
-  /// for a gap before a later file
+  /// The number of available frames, at most `most`: samples or files from the first one on, or
+  /// numbered files without a gap, readable or not. @throws InputError if there is none, or for a
+  /// gap before a later file
   std::size_t available(std::size_t most) const;
-  /// The mesh of the first file. @pre the spec is of meshes
+  /// The mesh of the first file. @pre the spec names mesh files
   mesh::LoadedMesh first_mesh() const;
-  /// Compares sample 0 of a cache with the mesh as it was given, not yet placed. Returns notes.
-  /// @throws InputError where the space of the mesh is asked for, and no change of axes leads there
+  /// Compares sample 0 of a cache with the mesh as given, before place(). Returns notes.
+  /// @throws InputError if the space of the mesh is requested and no change of axes leads to it
   std::string find_space(const TriangleMesh& mesh);
-  /// Faces of the files that no triangle of the mesh fills.
+  /// Sets the faces of the files for which the mesh has no triangles.
   void leave_unfilled(std::vector<std::size_t> faces) { unfilled_ = std::move(faces); }
-  /// Where the vertices of the shape are, placed. @throws InputError where the frame has other
-  /// vertices or triangles than the mesh as it was given, or is none
+  /// The vertices of the shape, after place(). @throws InputError if the frame's vertices or
+  /// triangles differ from those of the mesh as given, or the frame does not exist
   std::vector<Vec3> positions(std::size_t frame, const BodyShape& shape) const;
 
-  /// @throws InputError that names the frame and its file
+  /// @throws InputError naming the frame and its file
   [[noreturn]] void fail_at(std::size_t frame, const std::string& what) const;
 
   const RecordingSpec& spec() const { return spec_; }
@@ -88,7 +88,7 @@ class RecordedFrames {
   std::string described() const;
 
  private:
-  // Of all vertices as they were given.
+  // All vertices as given, before any are dropped.
   std::vector<Vec3> numbered_positions(std::size_t frame, const BodyShape& shape) const;
   std::vector<Vec3> cached_positions(std::size_t frame, const BodyShape& shape) const;
   void refuse_gap(std::size_t missing, std::size_t most) const;
@@ -109,16 +109,16 @@ class RecordedBodies {
 
   struct Available {
     std::size_t frames = 0;
-    std::size_t body = 0;  ///< that has no more
+    std::size_t body = 0;  ///< a body that has no more frames
   };
   /// The frames that every recording has, at most `most`. @pre not empty. @throws InputError
   Available available(std::size_t most) const;
 
-  /// Says in scene.origins of which recordings only the first `frames` are used, which may have up
-  /// to `most`. @throws InputError
+  /// Notes in scene.origins the recordings of which only the first `frames` are used, though they
+  /// have more (counted up to `most`). @throws InputError
   void note_unused(std::size_t frames, std::size_t most, Scene& scene) const;
 
-  /// Fills scene.recorded, with the nodes of the scripted bodies too, and scene.fits.
+  /// Fills scene.recorded, including the nodes of scripted bodies, and scene.fits.
   /// @pre scene.frames and scene.time_step are set, to no more frames than are available
   void fill(Scene& scene) const;
 

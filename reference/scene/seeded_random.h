@@ -1,6 +1,6 @@
-// Drawing numbers by seed, number of the scene and name of what is drawn, so that a parameter keeps
-// its value when others are added. Sums, products, quotients and square roots alone: the same bits
-// on every machine.
+// Random numbers by seed, number of the scene and name of the parameter, so that a parameter keeps
+// its value when others are added. Only sums, products, quotients and square roots are used: the
+// same bits on every machine.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// How a scene file describes a simulation: steps, gravity, ground and driving detector at the root,
-// material and initial velocity on bodies (fixtures/README.md, "Scenes").
+// A simulation in a scene file: steps, gravity, ground and driving detector at the root, material
+// and initial velocity on bodies (fixtures/README.md, "Scenes").
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@
 
 namespace contactcheck::scene {
 
-/// What scene files call a model: "mass-spring".
+/// The name of a model in scene files: "mass-spring".
 const char* name_of(DeformableModel model);
-/// @pre a name that name_of gives
+/// @pre name_of returns this name for some model
 DeformableModel model_named(std::string_view name);
-/// All of them, in the order of the documentation.
+/// All names, in the order of the documentation.
 const std::vector<std::string>& model_names();
 
 /// The root's "simulation"; materials and velocities stay empty.
@@ -30,9 +30,9 @@ SimulationSpec parse_simulation(const text::JsonField& field);
 /// @throws InputError
 Material parse_material(const text::JsonField& field);
 
-/// Adds the material and velocity of one body, in the order of the bodies. `body` is its whole
-/// field; `motion` what its "motion" became.
-/// @throws InputError also when the body has no lattice to deform, or a motion that goes on
+/// Adds the material and velocity of the next body. `body` is its whole field; `motion` the parsed
+/// "motion".
+/// @throws InputError also if the body has no lattice to deform, or a motion that changes with time
 void add_simulated_body(const text::JsonField& body, const BodyShape& shape, const Motion& motion,
                         SimulationSpec& simulation);
 

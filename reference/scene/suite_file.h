@@ -8,15 +8,15 @@
 
 namespace contactcheck::scene {
 
-/// Names of detectors are as on the command line, all different. Whether they exist is the
-/// registry's business.
+/// Detector names are as on the command line, all different. Whether they exist is checked by the
+/// catalogue.
 struct SuiteScene {
-  std::string id;                      ///< of a scene or family that comes along; or empty, and:
+  std::string id;                      ///< a scene or family of contactcheck; or empty, and:
   std::filesystem::path file;          ///< a scene file or recording, absolute
-  std::vector<std::string> detectors;  ///< empty: those of the suite
+  std::vector<std::string> detectors;  ///< empty: the suite's
 };
 
-/// What a suite hopes to measure. Missing it is a result, not a failure.
+/// A performance goal of a suite. Missing it is a result, not a failure.
 struct SuiteGoal {
   enum class Kind {
     kOver,       ///< time(other) / time(detector)
@@ -26,8 +26,8 @@ struct SuiteGoal {
   std::string name;  ///< one line
   std::string scene, detector;
   Kind kind = Kind::kOver;
-  std::string other;  ///< detector or scene, by kind
-  std::string part;   ///< "playback", "cold", "contact_frames" (of a playback)
+  std::string other;                        ///< detector or scene, by kind
+  std::string part;                         ///< "playback", "cold", "contact_frames" (in playback)
   std::optional<double> at_least, at_most;  ///< one of them
 };
 
@@ -39,12 +39,12 @@ struct Suite {
   std::vector<SuiteGoal> goals;
 };
 
-/// A scene is "ID", {"scene": ID, "detectors": [...]} or {"file": PATH}, with detectors where
-/// wanted; PATH (.json, .ccr) is relative to the suite's own file, and goals do not know its scene.
+/// A scene is "ID", {"scene": ID, "detectors": [...]} or {"file": PATH}, optionally with detectors;
+/// PATH (.json, .ccr) is relative to the suite's file. Goals cannot refer to a scene given by PATH.
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 Suite load_suite(const std::filesystem::path& file);
 
-/// Where a suite's scene is read. @throws InputError for an id that is none of `fixtures`
+/// The file of a suite's scene. @throws InputError for an id that `fixtures` does not contain
 std::filesystem::path file_of(const SuiteScene& scene, const std::filesystem::path& fixtures);
 
 }  // namespace contactcheck::scene

@@ -1,4 +1,4 @@
-// A run's wrong answers beside the known ones, in both directions.
+// Compares a run's wrong answers with the list of known ones, in both directions.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@ namespace contactcheck::results {
 /// By library: "fcl" -> "0.7.0".
 using LibraryVersions = std::map<std::string, std::string>;
 
-/// Of the libraries of a run; kOwnVersion of our own detectors.
+/// The versions of a run's libraries; kOwnVersion for our own detectors.
 LibraryVersions versions_in(const results::Results& results);
 
 struct DefectComparison {
   struct Count {
     std::size_t listed = 0;      ///< cases that the run could have shown
-    std::size_t shown = 0;       ///< of these, with whatever count
-    std::size_t changed = 0;     ///< of those, with another count than the listed one
-    bool other_version = false;  ///< the run has another version of the library: nothing compared
-    bool possible = false;       ///< the run has some detector and case of it
+    std::size_t shown = 0;       ///< of these, with any count
+    std::size_t changed = 0;     ///< of those, with a count other than the listed one
+    bool other_version = false;  ///< the run has another version of the library: not compared
+    bool possible = false;       ///< the run contains some detector and case of it
   };
-  /// A count that was listed and one that the run shows; 0 where there is none.
+  /// A listed count and the count of the run; 0 if there is none.
   struct Change {
     std::uint64_t was = 0, is = 0;
 
@@ -36,7 +36,7 @@ struct DefectComparison {
 
   std::vector<Count> counts;  ///< per known defect, in its order
   Changes changed;            ///< listed and shown, with another count
-  Changes not_shown;          ///< listed, could have been seen, were not: mended since?
+  Changes not_shown;          ///< listed, could have been seen, were not: fixed since?
   Changes unlisted;           ///< seen and not listed
 
   bool as_listed() const { return changed.empty() && not_shown.empty() && unlisted.empty(); }
@@ -45,20 +45,19 @@ struct DefectComparison {
 DefectComparison compare_defects(const KnownDefects& known, const SightingsOfRun& run,
                                  const LibraryVersions& versions);
 
-/// True when some detector failed where the list has no error.
+/// True if some detector failed and the list has no such error.
 bool any_unlisted_error(const DefectComparison& comparison);
 
-/// What results.json says about the defects that the run could have shown.
+/// The known defects that the run could have shown, as results.json has them.
 DefectCounts in_results(const KnownDefects& known, const DefectComparison& comparison);
 
-/// Of which library a detector is made; by its canonical name.
+/// Returns the library of a detector, given its canonical name.
 using LibraryOf = std::function<std::string(const std::string& detector)>;
 
-/// The list as this run would have it. What the run shows is taken in with its counts: under the
-/// defect of the same detector, scene and kind where there is one, else under a new one that waits
-/// for an explanation (kUnexplained). What it could have shown and did not is taken out, and
-/// defects of which nothing is left with it. What it cannot tell stays, so does a defect of another
-/// version.
+/// The list updated by this run. Wrong answers of the run are added with their counts: to the
+/// defect of the same detector, scene and kind, or to a new one without explanation (kUnexplained).
+/// Cases that the run could have shown and did not are removed, and defects without cases with
+/// them. Cases that the run could not show stay, as do defects of other versions.
 KnownDefects updated(const KnownDefects& known, const SightingsOfRun& run,
                      const LibraryVersions& versions, const LibraryOf& library_of);
 

@@ -33,11 +33,11 @@ void add_answers(const results::Family& family, const Run& run, SightingsOfRun& 
   add(SightingKind::kSpurious, run.per_frame.spurious);
 }
 
-// It would have ended at an earlier case, were that one bad too; of the later ones nobody knows.
+// It would have ended at an earlier case if that were bad too; later cases are unknown.
 // @pre kind is kError or kRefused, and the row is `ok` or ended in this way
 void add_end(SightingKind kind, const std::vector<std::string>& values, const Run& run,
              SightingsOfRun& out) {
-  // Behind the last case where none is known.
+  // The index after the last case if no failed case is recorded.
   const std::size_t ended_case =
       run.ok() ? values.size() : run.failed_frame.value_or(values.size());
   Sighting s{run.detector, run.scene, kind, kNoCase};
@@ -150,7 +150,7 @@ KnownDefect parse_defect(const text::JsonField& field, bool readings) {
   return out;
 }
 
-// Otherwise nobody could say which of two causes a new sighting has.
+// Refuses two causes for one detector, scene and kind: a new sighting would fit both.
 void require_place_of_its_own(const KnownDefect& defect, const KnownDefects& known,
                               const text::JsonField& field) {
   for (const KnownDefect& other : known.defects) {
@@ -194,7 +194,7 @@ std::string defect_text(const KnownDefect& d) {
   return out + "   \"seen\": {\n" + seen_text(d) + "}\n  }";
 }
 
-// Of one of the two files.
+// One of the two list files.
 struct ListFile {
   const char *name, *key, *what;
   bool readings;

@@ -1,4 +1,4 @@
-// The libraries that everything is measured against.
+// The reference libraries, which speed-ups are measured against.
 #pragma once
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 
 namespace contactcheck::results {
 
-/// Their detectors, in the order of tables. Each has a column; a run gives speed-ups against these
-/// wherever they run.
+/// Their detectors, in the order of tables. Each has a column; a run gives speed-ups against those
+/// that it contains.
 inline constexpr std::array kReferences = {"fcl-aabb", "fcl-obbrss", "embree"};
 
-/// True for these and for the same with prefilter=nodes, which have no column but are measured
-/// against in tables by scene.
+/// True for these and for their variants with prefilter=nodes, which have no column but are
+/// references in tables by scene.
 inline bool is_reference(std::string_view detector) {
   constexpr std::string_view kPrefilter = ":prefilter=nodes";
   if (detector.ends_with(kPrefilter)) detector.remove_suffix(kPrefilter.size());

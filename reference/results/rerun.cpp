@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of `run`.
+// The flags of `run` without a value.
 constexpr const char* kWithoutValue[] = {"--no-timing", "--reduce",     "--resume",     "--quiet",
                                          "--explain",   "--json-lines", "--closed-loop"};
 

@@ -1,4 +1,4 @@
-// Words of a command line that runs a part of some results again.
+// Words of a command line that repeats a part of some results.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace contactcheck::results {
 /// Empty for a transient detector, which no command can run again.
 std::string detector_words(const Results& results, const std::string& detector);
 
-/// The scene as `run` takes it: its id, or the file or the meshes, with motion and size, that the
-/// results' command named.
+/// The scene for `run`: its id, or the file or the meshes, with motion and size, of the results'
+/// command.
 std::string scene_words(const Results& results, const std::string& scene);
 
-/// The folder of --out, as the results' command names it.
+/// The folder of --out in the results' command.
 std::string out_folder(const Results& results);
 
 }  // namespace contactcheck::results

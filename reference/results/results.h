@@ -1,6 +1,6 @@
-// results.json as plain data: fixtures/results.schema.json says what each field means. Units:
-// metres, seconds, milliseconds for times, degrees, bytes. A quantity that was not measured has no
-// value, and is null in the file.
+// results.json as plain data; fixtures/results.schema.json explains each field. Units: metres,
+// seconds (times in milliseconds), degrees, bytes. A quantity that was not measured has no value,
+// and is null in the file.
 #pragma once
 
 #include <cstdint>
@@ -27,19 +27,19 @@ struct Machine {
   std::size_t cores = 0;
 };
 
-/// By the names in the file, in its order.
+/// The members with their names in the file, in its order.
 std::vector<std::pair<std::string, std::string>> members_of(const Machine& machine);
 
-/// Sums over frames at one level.
+/// Sums over frames, at one level.
 struct LevelCounts {
   std::uint64_t truth = 0, reported = 0, hit = 0, missed = 0, spurious = 0;
-  /// hit / truth and spurious / reported; none over nothing.
+  /// hit / truth and spurious / reported; none if the divisor is 0.
   std::optional<double> recall = {}, spurious_rate = {};
-  std::optional<double> margin = {};  ///< of the level near
+  std::optional<double> margin = {};  ///< of the near levels, metres
   bool informative = false;           ///< not claimed: shown, never gated
 
   bool perfect() const { return missed == 0 && spurious == 0; }
-  /// The counts alone.
+  /// Adds the counts only.
   LevelCounts& operator+=(const LevelCounts& other);
   void set_rates();
 };
@@ -50,19 +50,19 @@ using Levels = std::map<Level, LevelCounts>;
 struct PerFrame {
   std::optional<Level> level;
   std::vector<std::uint64_t> truth, missed, spurious;
-  /// Of the true contact contour; none in frames without contour and for detectors that report no
-  /// elements.
+  /// The covered share of the true contact contour; none for frames without contour and detectors
+  /// that report no elements.
   std::vector<std::optional<double>> covered_length_fraction;
   std::optional<std::vector<std::optional<double>>> frame_ms;  ///< of a timed run; none: not timed
 };
 
-/// Errors from `from` on and below `below`; the last bin of all holds `below`, too.
+/// Errors in [from, below); the last bin includes `below`.
 struct HistogramBin {
   double from = 0.0, below = 0.0;
   std::uint64_t count = 0;
 };
 
-/// A stretch of frames in which two bodies touch or are said to.
+/// A run of frames in which two bodies touch or are reported to touch.
 struct Episode {
   BodyPair bodies;
   std::optional<std::size_t> first_true, first_reported;  ///< frames
@@ -70,7 +70,7 @@ struct Episode {
   std::optional<long> late_frames;  ///< reported minus true, signed
 };
 
-/// Errors over all contacts that could be judged; values only where there was one.
+/// Errors over all contacts that could be judged; no values if there were none.
 struct ErrorSpread {
   std::uint64_t judged = 0;
   std::optional<double> max, mean, p95;
@@ -85,12 +85,12 @@ struct Geometry {
   ErrorSpread depth;       ///< |reported - true|
   ErrorSpread normal_deg;  ///< to the nearest of the true normals
   std::optional<double> hover_gap_max;
-  std::optional<long> late_frames;  ///< of the largest size over all episodes
+  std::optional<long> late_frames;  ///< the one with the largest absolute value
   std::vector<Episode> episodes;
 };
 
 using NamedErrors = std::vector<std::pair<std::string, std::optional<double>>>;
-/// The errors of a row by their names in the file, sorted; the same names for every row.
+/// The errors of a row with their names in the file, sorted; the same names for every row.
 NamedErrors errors_of(const Geometry& geometry);
 
 struct Stage {
@@ -100,17 +100,17 @@ struct Stage {
   std::string visited_unit;  ///< with visited
 };
 
-/// Milliseconds per frame: of each pass the mean over its frames, of the passes the geometric mean.
+/// Milliseconds per frame: the geometric mean over passes of each pass's mean over its frames.
 /// Phases are shares of `frame` and add up to it.
 struct PhaseTimes {
-  std::optional<double> map;  ///< none for detectors that map what they need themselves
+  std::optional<double> map;  ///< none for detectors that do their own mapping
   double update = 0.0, query = 0.0, frame = 0.0;
   std::optional<double> contact_frame;  ///< over frames with contact; none without any
   std::optional<double> first_frame;    ///< of a playback, whose other times leave it out
-  std::optional<double> self_reported;  ///< update and query, by the detector's own clock
+  std::optional<double> self_reported;  ///< update and query, measured by the detector
   double cpu = 0.0;                     ///< CPU time of the whole process tree
-  /// That the machine gave to others while the detector was ready to run; in none of the others.
-  /// None in files of a program that did not take it off.
+  /// The time that the machine gave to others while the detector was ready to run; not part of the
+  /// other times. None in files of programs that did not measure it.
   std::optional<double> taken;
 };
 
@@ -118,36 +118,36 @@ struct PhaseTimes {
 struct QuestionTimes {
   Question question = Question::kTriangles;
   std::size_t timed_frames = 0, timed_contact_frames = 0;
-  std::size_t passes = 0;  ///< through these frames, each in a fresh process
+  std::size_t passes = 0;  ///< over these frames, each in a fresh process
   PhaseTimes playback;     ///< all frames in order, nothing flushed between them
-  /// `playback.frame` of each pass; empty in files of a program that did not keep it.
+  /// `playback.frame` of each pass; empty in files of programs that did not store it.
   std::vector<double> pass_ms;
-  /// The scene's cold_frames, each after a sweep through the caches; only of its own question.
+  /// The scene's cold_frames, each after a sweep through the caches; only for its own question.
   std::optional<PhaseTimes> cold;
 };
 
-/// time(reference) / time(detector) over the same frames of as many passes of both: the geometric
-/// mean, with its 95 % interval or the range of the passes (statistics.h).
+/// time(reference) / time(detector) over the same frames and the same number of passes of both: the
+/// geometric mean, with its 95 % interval or the range of the passes (statistics.h).
 struct Speedup {
   Ratio playback;
   std::optional<Ratio> cold;            ///< none unless the question is both's own
   std::optional<Ratio> contact_frames;  ///< playback; none without a frame with contact
-  std::optional<Ratio> without_map;     ///< playback; none when one side maps lazily
+  std::optional<Ratio> without_map;     ///< playback; none if one side maps within its query
   std::size_t passes = 0;
   Texts reference_options;
 };
 
-/// How a run has timed.
+/// The settings of a run's timing.
 struct Timing {
   std::size_t processes = 0;   ///< passes of each detector
-  double one_pass_beyond = 0;  ///< seconds: a detector that takes longer has one; 0: no limit
-  std::uint64_t seed = 0;      ///< of the order of detectors and of the cold frames
+  double one_pass_beyond = 0;  ///< seconds: slower detectors get one pass; 0: no limit
+  std::uint64_t seed = 0;      ///< for the order of detectors and the cold frames
   std::uint64_t sweep_bytes = 0;
 };
 
-/// The motion that a detector drives, judged by the oracle on its own frames.
+/// The motion that a detector drives; the oracle judges it on the same frames.
 struct ClosedLoop {
-  std::string error;      ///< not empty: why there is no motion (it diverged), and nothing else
+  std::string error;      ///< not empty: why there is no motion (it diverged); all else is unset
   std::size_t steps = 0;  ///< of the simulation
   Levels levels;          ///< the detector's answers on the frames that it drove
   /// The true distance of every pair of bodies that the detector reports in the last tenth of the
@@ -156,12 +156,12 @@ struct ClosedLoop {
   /// The deepest vertex inside another body, over all frames; none where no body is closed in all
   /// of them, or level `vertex` is not judged.
   std::optional<double> deepest_penetration;
-  /// (highest total energy - energy at the start) / highest kinetic energy: above 0 response or
-  /// integrator put energy in.
+  /// (highest total energy - energy at the start) / highest kinetic energy: above 0 if response or
+  /// integrator added energy.
   std::optional<double> energy_gain;
-  double last_speed = 0.0;  ///< m/s, root of the mean square over the mass: is it at rest?
-  /// Pairs of bodies that leave a true contact on the other side: the direction between their
-  /// centres has turned by more than 90 degrees since the last frame before that contact.
+  double last_speed = 0.0;  ///< m/s, root mean square over the mass: about 0 at rest
+  /// Pairs of bodies that leave a true contact on the other side: since the last frame before it,
+  /// the direction between their centres has turned by more than 90 degrees.
   std::size_t tunnelling_events = 0;
 };
 
@@ -179,7 +179,7 @@ const char* name_of(Status status);
 /// A hash as in the file: "0x0123456789abcdef".
 std::string hex(std::uint64_t hash);
 
-/// One detector on one scene. Of one that is not `ok` the file has nothing from per_frame on.
+/// One detector on one scene. If it is not `ok`, the file has no field from per_frame on.
 struct Run {
   std::string scene, detector, message;
   Status status = Status::kOk;
@@ -190,20 +190,20 @@ struct Run {
   std::optional<std::size_t> failed_frame;
   PerFrame per_frame;
   Levels levels;
-  Levels levels_rounded;                    ///< against the truth of the values it was fed
-  std::map<Level, std::string> not_judged;  ///< claimed, but why not judged
+  Levels levels_rounded;                    ///< against the truth for the values it was fed
+  std::map<Level, std::string> not_judged;  ///< claimed levels, and why they were not judged
   Geometry geometry;
   std::vector<Stage> stages;
-  /// What the detector says it did for its own question, summed over frames; in its own units.
+  /// The detector's own counts of work for its own question, summed over frames.
   std::vector<std::pair<std::string, std::uint64_t>> counters;
   double prepare_ms = 0.0;
-  std::vector<QuestionTimes> times;  ///< its own question first; empty without timing
+  std::vector<QuestionTimes> times;  ///< its own question first; empty if not timed
   std::map<Question, std::map<std::string, Speedup>> speedup;  ///< by reference detector
   std::uint64_t memory_bytes = 0;    ///< heap: the largest over all frames
-  std::uint64_t prepared_bytes = 0;  ///< heap that prepare leaves
+  std::uint64_t prepared_bytes = 0;  ///< heap after prepare
   std::string contact_hash;
   std::vector<std::string> float_environment;  ///< what the detector left changed
-  std::vector<std::string> notes;              ///< what else a reader must know
+  std::vector<std::string> notes;              ///< other facts for the reader
   std::optional<ClosedLoop> closed_loop;
   std::optional<StepTimes> step_ms;
 
@@ -224,7 +224,7 @@ struct Family {
   std::string range;
 };
 
-/// A value of a family's parameter. @throws InputError when it is no number
+/// The number that a family's parameter value denotes. @throws InputError if it is not a number
 double parameter_number(const std::string& value);
 
 struct Sweep {
@@ -249,10 +249,10 @@ struct RandomPairs {
   std::uint64_t checked = 0, oracle_wrong = 0;  ///< by rational arithmetic
 };
 
-/// Of a scene drawn from a seed (reference/scene/drawn_scene.h).
+/// The origin of a scene that was drawn from a seed (reference/scene/drawn_scene.h).
 struct Drawn {
   std::uint64_t seed = 0, number = 0;
-  std::size_t redrawn = 0;  ///< times that a limit ended its judging and it was drawn again
+  std::size_t redrawn = 0;  ///< number of redraws because judging exceeded a limit
   std::string happens;
   std::map<std::string, double> parameters;
 };
@@ -263,24 +263,24 @@ struct Simulation {
   std::size_t every = 0;
 };
 
-/// Metres. An edge is the longest side of a triangle at rest; triangles that are a point have none.
+/// Metres. An edge is the longest side of a triangle at rest; point triangles are left out.
 struct SceneScale {
   double shortest_edge = 0.0, longest_edge = 0.0;
-  double reach = 0.0;  ///< the largest coordinate of a vertex in any frame, either sign
+  double reach = 0.0;  ///< the largest |coordinate| of a vertex in any frame
 };
 
 struct Scene {
   std::string id, title;
   std::size_t frames = 0, contact_frames = 0;
   double time_step = 0.0, size = 0.0;
-  /// None where cases or pairs differ in scale from frame to frame, and without triangles.
+  /// None if cases or pairs differ in scale between frames, or without triangles.
   std::optional<SceneScale> scale;
   /// Contacts over all frames, or why the level cannot be judged.
   std::map<Level, std::variant<std::uint64_t, std::string>> truth;
   std::string truth_hash;
   std::vector<SceneBody> bodies;
   std::vector<double> separation;
-  std::vector<std::size_t> cold_frames;  ///< ascending; empty: nothing was timed
+  std::vector<std::size_t> cold_frames;  ///< ascending; empty if nothing was timed
   std::optional<Family> family;
   std::optional<Sweep> sweep;
   std::vector<LatticeFit> fits;
@@ -292,7 +292,7 @@ struct Scene {
 
 struct Disagreement {
   std::string scene, detector, level, kind;
-  std::string case_file;  ///< its name; during a run its path
+  std::string case_file;  ///< its name; its path during a run
   std::size_t frame = 0;
 };
 
@@ -323,8 +323,8 @@ struct DefectCount {
   bool other_version = false;
 };
 
-/// Cases of one detector, scene and kind, and how many pairs in each: as listed, as shown. A list
-/// that has nothing to say is empty.
+/// Cases of one detector, scene and kind, with the number of pairs in each: listed and shown. A
+/// list without meaning for its kind of difference is empty.
 struct Sightings {
   std::string detector, scene, kind;
   std::vector<std::string> values;
@@ -336,17 +336,17 @@ struct DefectCounts {
   std::vector<Sightings> changed, not_shown, unlisted;
 };
 
-/// In which range of sizes, or of distances from the origin, a detector answers every case of the
-/// suite scales as it claims. Values are as the families write them (parameter_number).
+/// The range of sizes, or of distances from the origin, in which a detector answers every case of
+/// the suite scales as it claims. Values are written as in the families (parameter_number).
 struct ScaleRange {
   std::string detector;          ///< its canonical name
   std::string library, version;  ///< as of a KnownDefect (known_defects.h)
   std::string by;                ///< Family::range
-  std::string level;             ///< the finest judged; "-": none was
-  std::string from, to;          ///< empty: it is right nowhere
-  std::string least, most;       ///< the ends of what was tried
+  std::string level;             ///< the finest judged; "-" if none was
+  std::string from, to;          ///< empty if it is right nowhere
+  std::string least, most;       ///< the smallest and largest value tried
   std::uint64_t right = 0, cases = 0;
-  std::string wrong_below, wrong_above;  ///< the nearest wrong case, with what is wrong; or empty
+  std::string wrong_below, wrong_above;  ///< the nearest wrong case, with its error; or empty
 
   bool by_size() const { return by == "size"; }
   bool operator==(const ScaleRange&) const = default;
@@ -369,7 +369,7 @@ struct Shard {
   Texts files;
 };
 
-/// What a command found before it ran what follows (check): the head of its page.
+/// The finding of a command (check) that ran these results: the head of its page.
 struct Finding {
   std::string title, first;  ///< "4 of 8 frames have ...", "frame 4: left and right: 33 pairs ..."
 };
@@ -384,7 +384,7 @@ struct Results {
   std::vector<Run> runs;
   std::vector<Disagreement> disagreements;
   std::optional<DefectCounts> known_defects;
-  /// Of its detectors, in the versions of their libraries that it has.
+  /// The ranges of its detectors, for the versions of their libraries in this run.
   std::vector<ScaleRange> known_ranges;
   std::vector<MeasuredGoal> goals;
   std::optional<std::vector<std::string>> resumed;
@@ -392,25 +392,25 @@ struct Results {
   std::vector<std::string> merged;
   std::optional<Finding> finding;
 
-  /// That the detector, with or without options, is of; null: one of the program's own.
+  /// The plug-in of a detector (named with or without options); null for the program's own.
   const Plugin* plugin_of(const std::string& detector) const;
 };
 
-/// Scenes and rows by name, of results that outlive it and do not change. What is asked for and is
-/// not there is null, or a list of nothing.
+/// Looks up scenes and rows by name. The results must outlive it and not change. Unknown names give
+/// null or an empty list.
 class Index {
  public:
   explicit Index(const Results& results);
-  explicit Index(const Results&&) = delete;  ///< they would be gone
+  explicit Index(const Results&&) = delete;  ///< a temporary would be gone
 
   const Results& results() const { return *results_; }
   const Scene* scene(const std::string& id) const;
   const Run* run(const std::string& scene, const std::string& detector) const;
-  /// Where it is `ok`.
+  /// The row if its status is `ok`, else null.
   const Run* ok_run(const std::string& scene, const std::string& detector) const;
-  /// In the order of the file, as are the next.
+  /// In the order of the file, as below.
   const std::vector<const Run*>& runs_of(const std::string& scene) const;
-  /// Each once, by their first rows.
+  /// Each detector once, in the order of first rows.
   const std::vector<std::string>& detectors() const { return detectors_; }
 
  private:

@@ -1,4 +1,4 @@
-// A results.json of an earlier run, or of another program.
+// Reads a results.json of an earlier run or of another program.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace contactcheck::results {
 
-/// Copying and writing JSON recurse, and too deep a document would overflow the stack. `json`:
-/// bytes that were parsed. @throws InputError when they are nested deeper than results can be
+/// Copying and writing JSON recurse, so a deeply nested document could overflow the stack. `json`:
+/// bytes that were parsed. @throws InputError if they are nested deeper than results can be
 void check_json_depth(std::string_view json, const std::filesystem::path& file);
 
-/// @throws InputError when the file cannot be read, is no JSON, of another schema, or not as
-/// fixtures/results.schema.json says, or has times that cannot be: with the first such place
+/// @throws InputError with the first wrong place, if the file cannot be read, is not JSON, has
+/// another schema, violates fixtures/results.schema.json, or has impossible times
 results::Results results_in(const std::filesystem::path& file);
 
 }  // namespace contactcheck::results

@@ -1,4 +1,4 @@
-// results.json <-> Results: the only reader and the only writer.
+// Converts results.json to and from Results: the only reader and the only writer.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,11 +7,11 @@
 
 namespace contactcheck::results {
 
-/// What is missing stays at its default: the schema (results_file.h) says what must be there.
-/// @throws nlohmann::json::exception when a field is of another type, or names an unknown value
+/// Missing fields keep their defaults: the schema (results_file.h) says which are required.
+/// @throws nlohmann::json::exception if a field has another type, or names an unknown value
 Results from_json(const nlohmann::ordered_json& json);
 
-/// With the fields in the order of the file.
+/// The fields are in the order of the file.
 nlohmann::ordered_json to_json(const Results& results);
 nlohmann::ordered_json to_json(const Semantics& semantics);
 nlohmann::ordered_json to_json(const Machine& machine);

@@ -1,5 +1,5 @@
-// In which sizes and how far from the origin detectors are right, as fixtures/hard/ranges.json
-// says: read, brought up to date, and held against the scenes of a run.
+// The sizes and distances from the origin at which detectors are right (fixtures/hard/ranges.json):
+// read, updated, and compared with the scenes of a run.
 #pragma once
 
 #include <filesystem>
@@ -9,22 +9,21 @@
 
 namespace contactcheck::results {
 
-/// ranges.json of the folder; where there is none, nothing.
+/// Reads ranges.json of the folder; empty if there is no such file.
 /// @throws InputError with file, place and value
 std::vector<ScaleRange> read_scale_ranges(const std::filesystem::path& folder);
 
-/// Under a temporary name, then renamed. @throws InputError with the path when it cannot be
+/// Writes under a temporary name, then renames. @throws InputError with the path if that fails
 void write_scale_ranges(const std::filesystem::path& folder, const std::vector<ScaleRange>& ranges);
 
-/// With those of a run in place of those of the same detector, library, version and `by`.
+/// Replaces the ranges of the same detector, library, version and `by` with those of a run.
 std::vector<ScaleRange> updated(std::vector<ScaleRange> known, const std::vector<ScaleRange>& run);
 
-/// Those of a run's detectors, in the versions of their libraries that it has.
+/// The ranges of a run's detectors, for the versions of their libraries in the run.
 std::vector<ScaleRange> ranges_of_run(const std::vector<ScaleRange>& known, const Results& results);
 
-/// Whether triangles of the scene are smaller or larger than the range, or farther from the origin:
-/// in edges of the shortest, which rounding meets first. Always, where the detector is right
-/// nowhere.
+/// True if triangles of the scene are smaller or larger than the range, or farther from the origin
+/// (in lengths of the shortest edge, which suffers first from rounding), or if the range is empty.
 bool outside(const ScaleRange& range, const SceneScale& scale);
 
 }  // namespace contactcheck::results

@@ -120,7 +120,7 @@ Ratio mean_ratio(const std::vector<double>& measured) {
   const double mean = measured.front() * std::exp(logs.mean);
   if (measured.size() < kFewestForInterval) {
     const auto [least, greatest] = std::minmax_element(measured.begin(), measured.end());
-    // Of equal measurements the mean may be an ulp off.
+    // The mean of equal measurements may be off by an ulp.
     return {mean, std::min(*least, mean), std::max(*greatest, mean)};
   }
   const double half_width = student95(measured.size() - 1) * logs.deviation /

@@ -1,4 +1,4 @@
-// contacts/SCENE.json: which pairs touch, and which are missed or spurious, for the 3D view.
+// contacts/SCENE.json for the 3D view: true, missed and spurious pairs.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace contactcheck::report {
 
-/// The document as it is, checked against the recording that its numbers speak of: a page may
-/// follow every one of them. `name` is the file in messages.
-/// @throws InputError: no JSON, of another schema or scene, or it names a frame, body, triangle,
-/// cell or vertex that the recording does not have
+/// Reads the document and checks it against the recording that its numbers refer to, so that a page
+/// can use them unchecked. `name` is the file in messages.
+/// @throws InputError: not JSON, another schema or scene, or a frame, body, triangle, cell or
+/// vertex that the recording does not have
 nlohmann::ordered_json read_contacts(const std::string& text, const std::string& name,
                                      const Recording& recording);
 

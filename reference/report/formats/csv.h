@@ -7,10 +7,9 @@
 
 namespace contactcheck::report {
 
-/// One line per scene and detector below a line of titles: RFC 4180 (CRLF, quotes doubled), UTF-8.
-/// Numbers as results.json has them; a cell is empty where there is no value. The columns are the
-/// same for all results but for the references, of which there are those that some run has a
-/// speed-up against.
+/// One line per scene and detector after a header line: RFC 4180 (CRLF, quotes doubled), UTF-8.
+/// Numbers are those of results.json; a cell without a value is empty. All results have the same
+/// columns, except that a reference has columns only if some run has a speed-up against it.
 std::string csv_report(const results::Results& results);
 
 }  // namespace contactcheck::report

@@ -10,11 +10,11 @@
 
 namespace contactcheck::report {
 
-/// Whether this build carries the page (it takes npm to make it).
+/// True if this build contains the page; making it needs npm.
 bool has_html_report();
 
-/// `paper`: what the page shows of a reproduction of the same run, where there is one. `view`: the
-/// bytes of reference/report/formats/view_bytes.h, or nothing: a report without 3D view.
+/// `paper`: the page's part about a reproduction of the same run, if there is one. `view`: the
+/// bytes of view_bytes.h, or empty for a report without 3D view.
 /// @pre has_html_report()
 std::string html_report(const results::Results& results, const std::optional<PaperPart>& paper,
                         std::string_view view);

@@ -9,15 +9,15 @@
 
 namespace contactcheck::report {
 
-/// The title as a heading of the third order, the text, the table and an empty line; nothing
-/// without rows. A cell cannot end its column or its line.
+/// The title as a heading of level 3, the text, the table and an empty line; empty without rows.
+/// Cells are escaped, so that they cannot end their column or line.
 std::string markdown_of(const TitledTable& table);
 
-/// The Markdown report: where and how it was measured, every section, of each scene a section with
-/// its bodies, result table, losses per stage and disagreements, and how to read the columns.
+/// The Markdown report: origin and machine, every section, for each scene its bodies, result table,
+/// losses per stage and disagreements, and an explanation of the columns.
 std::string markdown_report(const results::Index& index);
 
-/// The report and its pictures by path below the report's folder: report.md and plots/*.svg.
+/// The report and its pictures, by path below the report's folder: report.md and plots/*.svg.
 std::map<std::string, std::string> report_files(const results::Results& results);
 
 }  // namespace contactcheck::report

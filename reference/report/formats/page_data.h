@@ -1,5 +1,5 @@
-// What the HTML page is given. It draws and lets people choose: sums, tables, sentences and points
-// are made here, for every choice that it offers.
+// The input of the HTML page, which only draws and lets people choose: sums, tables, sentences and
+// points are computed here, for every choice that it offers.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,9 +10,8 @@
 
 namespace contactcheck::report {
 
-/// One object, whose fields are those of the interface Page in
-/// reference/report/formats/web/src/page.ts. `paper`: the tables of `reproduce`, where there are
-/// such.
+/// One object with the fields of the interface Page in reference/report/formats/web/src/page.ts.
+/// `paper`: the tables of `reproduce`, if there are any.
 nlohmann::ordered_json page_data(const results::Results& results,
                                  const std::optional<PaperPart>& paper);
 

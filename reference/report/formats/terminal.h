@@ -8,12 +8,12 @@
 namespace contactcheck::report {
 
 /// The verdict in one line, and the result tables of all scenes as aligned plain text. Columns
-/// without a value are left out, and as many others as it takes for lines of 100 characters.
-/// `color` adds ANSI colours to misses, spurious contacts and errors; `explain` the meaning of all
-/// columns shown and how times were taken.
+/// without a value are left out, and others until lines have at most 100 characters. `color` adds
+/// ANSI colours to misses, spurious contacts and errors; `explain` adds the meaning of all columns
+/// shown and how times were measured.
 std::string terminal_tables(const results::Results& results, bool color, bool explain = false);
 
-/// What the columns of these tables with a title in `shown` mean, a line each; none: of all.
+/// The meaning of the columns with a title in `shown`, one line each; all columns if it is empty.
 std::string column_legend(const std::set<std::string>& shown = {});
 
 }  // namespace contactcheck::report

@@ -1,4 +1,4 @@
-// What the 3D view of the HTML report draws, in one compact container.
+// The data of the 3D view in the HTML report, in one compact container.
 //
 // Bytes, little-endian: "CCVIEW1\n"; u32 size of the header; the header, JSON padded with spaces so
 // that what follows starts at a multiple of 4; the arrays of one scene behind those of the other.
@@ -14,14 +14,13 @@
 //      "placements": [{"origin": [x, y, z], "scale"}]   one, or one per frame; metres. A position
 //                                          here is (scene - origin) / scale, within [-1, 1]
 //      "shapes": [{"vertices": V, "nodes": N, "triangles": ids[T][3],
-//        "kept": {"triangles": ids[T], "vertices": ids[V]}   of a scene too large for the page:
-//        what
-//                                          is here, near its contacts, by the numbers that pairs
-//                                          name, ascending; absent where all is here
+//        "kept": {"triangles": ids[T], "vertices": ids[V]}   only if the scene is too large for the
+//                                          page: the part near its contacts that is here, by the
+//                                          numbers that pairs name, ascending
 //        "numbers": ids[V]                by which pairs name the vertices; absent where from 0 on
 //        "lattice": {                     absent without one: then nodes are vertices
-//          "cell_nodes": ids[C][8]        corner c is at the high end of s, t, u by its bits 0, 1,
-//          2 "home": ids[V], "local": f32[V][3]     cell of each vertex, and (s, t, u) in it
+//          "cell_nodes": ids[C][8]        corner c is at the high end of s, t, u by bits 0, 1, 2
+//          "home": ids[V], "local": f32[V][3]       cell of each vertex, and (s, t, u) in it
 //          "boxes": f32[C][2][3]          FFD-AABB of each cell in (s, t, u): low, high corner
 //          "spheres": {"radius1", "centers2": ids[S], "radii2": [S]}}}]
 //                      as ffd-aabb-sphere2 has them (bounds=paper): radii at rest, metres; level 1
@@ -57,22 +56,22 @@ struct Placement {
   Vec3 in_view(const Vec3& p) const { return (p - origin) / scale; }
 };
 
-/// By frame, body, node.
+/// [frame][body][node]
 using FrameNodes = std::vector<std::vector<std::vector<Vec3>>>;
 
-/// One placement for all frames, so that the eye sees motion as it is; one per frame where a frame
-/// would be too small to see, or its nodes too coarse, in the box of all.
+/// One placement for all frames, so that motion looks as it is; one per frame if a frame would be
+/// too small to see, or its nodes too coarse, in the common box.
 std::vector<Placement> view_placements(const FrameNodes& frames);
 
-/// Bytes, compressed as html.h does it: base64 makes 4 of 3, and with page and results a report
-/// then stays below 15 MB.
+/// Bytes, compressed as in html.h. base64 adds a third; with page and results a report stays below
+/// 15 MB.
 inline constexpr std::size_t kViewLimit = 9'500'000;
 
-/// From the recordings and contacts that `results` name, in `folder`, where results.json stands.
-/// Where not all scenes fit into `limit` compressed bytes, of one that would take a third of them
-/// only what is near its listed contacts is kept. A scene is left out, and named, when a file of
-/// its is missing or unreadable, or when the smaller scenes leave no room for it. Empty when no
-/// scene of the results has a recording.
+/// Builds the container from the recordings and contacts that `results` name, in `folder`, the
+/// folder of results.json. If not all scenes fit into `limit` compressed bytes, a scene that needs
+/// over a third of them keeps only what is near its listed contacts. A scene is left out, and
+/// listed, if one of its files is missing or unreadable, or the smaller scenes leave no room for
+/// it. Empty if no scene of the results has a recording.
 std::string view_bytes(const results::Results& results, const std::filesystem::path& folder,
                        std::size_t limit = kViewLimit);
 

@@ -1,4 +1,4 @@
-// Detectors of one family have one colour and one name in legends.
+// Detectors of one family share one colour and one name in legends.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct DetectorGroup {
 };
 
 inline constexpr std::size_t kDetectorGroups = 9;
-/// The last one is of detectors that no other is for. Colours are those of the HTML report
+/// The last group is for detectors of no other group. Colours are those of the HTML report
 /// (web/src/groups.ts, web/src/style/colours.css).
 const DetectorGroup& detector_group(std::size_t index);
 std::size_t group_of(const std::string& detector);

@@ -1,4 +1,4 @@
-// What a detector found and what it should have found, summed over runs.
+// True, reported, missed and spurious contacts, summed over runs.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@ namespace contactcheck::report {
 struct ErrorCounts {
   std::uint64_t truth = 0, reported = 0, missed = 0, spurious = 0;
 
-  /// Adds those of a run that is `ok`, at this level. False where that was not judged or is no
-  /// claim of its detector.
+  /// Adds the counts of a run that is `ok`, at this level. False if the level was not judged or the
+  /// detector does not claim it.
   bool add(const results::Run& run, std::optional<Level> level);
 
-  /// missed / truth; nothing where there was nothing to find.
+  /// missed / truth; nothing if there was nothing to find.
   std::optional<double> missed_share() const;
-  /// spurious / reported; nothing where nothing was reported.
+  /// spurious / reported; nothing if nothing was reported.
   std::optional<double> spurious_share() const;
-  /// The larger one; nothing where there is neither.
+  /// The larger of the two; nothing if neither has a value.
   std::optional<double> worse_share() const;
 };
 

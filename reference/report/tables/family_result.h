@@ -1,4 +1,4 @@
-// A detector's answers to one family of hard cases, as in results.json.
+// A detector's answers to one family of hard cases, from results.json.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace contactcheck::report {
 
-/// Refers to results that must outlive it. The schema does not say how long their lists are:
-/// whatever is of a case that is not there throws InputError.
+/// Refers to results that must outlive it. The schema does not fix the lengths of their lists, so
+/// access to a missing case throws InputError.
 struct FamilyResult {
   /// truth, missed or spurious.
   using Counts = std::vector<std::uint64_t> results::PerFrame::*;
@@ -25,25 +25,25 @@ struct FamilyResult {
   bool refused() const { return run.status == results::Status::kRefused; }
 
   std::size_t cases() const { return scene.family->values.size(); }
-  /// Of the parameter, in that case.
+  /// The parameter's value in that case.
   const std::string& value(std::size_t frame) const;
   /// @pre judged()
   std::uint64_t at(Counts counts, std::size_t frame) const;
   bool wrong_at(std::size_t frame) const;
   /// "1 missed, 0 spurious of 6 true". @pre judged()
   std::string errors_text(std::size_t frame) const;
-  /// Over all cases; 0 where nothing was judged.
+  /// Summed over all cases; 0 if nothing was judged.
   std::uint64_t sum(Counts counts) const;
   std::size_t wrong() const;
-  /// Wrong somewhere, or without an answer because of an error.
+  /// True for a wrong case, or an error instead of answers.
   bool goes_wrong() const { return failed() || wrong() > 0; }
-  /// The case in which it ended in an error, where that is known.
+  /// The case in which the run ended in an error, if the results name it.
   std::optional<std::size_t> failed_frame() const;
-  /// Milliseconds of a case in playback, mapping and update included; nothing where none was timed.
+  /// Milliseconds per case in playback, mapping and update included; nothing if not timed.
   std::optional<double> milliseconds() const;
 };
 
-/// Where the report expects the picture of a family, beside report.md: "plots/ID.svg".
+/// The path of a family's picture next to report.md: "plots/ID.svg".
 std::string stability_plot_file(const results::Scene& scene);
 
 /// In the order of scenes, then of runs.

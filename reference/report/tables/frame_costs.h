@@ -1,4 +1,4 @@
-// What frames cost each detector: by phase, as means over scenes; one by one in a scene.
+// The cost of frames for each detector: by phase, as means over scenes; frame by frame in a scene.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@
 
 namespace contactcheck::report {
 
-/// One detector over the scenes in which it was timed, each counting the same. Milliseconds per
+/// One detector over the scenes in which it was timed, each with equal weight. Milliseconds per
 /// frame.
 struct PhaseMeans {
   std::string detector;
-  Question question = Question::kTriangles;  ///< its own; of different ones times do not compare
+  Question question = Question::kTriangles;  ///< its own; times compare only within a question
   std::size_t scenes = 0;                    ///< at least one
-  /// None for a detector that maps what it needs within its query. Where it does so in some scenes
-  /// alone, those count with 0.
+  /// None for a detector that maps within its query. If it does so only in some scenes, these count
+  /// as 0.
   std::optional<double> map;
   double update = 0.0, query = 0.0;
   TimedPart timed;
@@ -31,41 +31,41 @@ struct PhaseMeans {
   double total() const { return map.value_or(0.0) + update + query; }
 };
 
-/// Of all detectors that were timed in one of these scenes, in playback or cold; the least total
-/// first.
+/// The means of all detectors that were timed in one of these scenes, in playback or cold; sorted
+/// by total, the least first.
 std::vector<PhaseMeans> phase_times(const results::Index& index, const SceneChoice& scenes,
                                     bool cold);
 
-/// A row per detector, in this order.
+/// One row per detector, in this order.
 TitledTable phase_times_table(const std::vector<PhaseMeans>& all);
 
-/// Of frames in which surfaces touch; milliseconds, playback.
+/// The cost of frames in which surfaces touch; milliseconds, playback.
 struct TouchingCost {
   double low = 0.0, median = 0.0, high = 0.0;
   std::size_t frames = 0;
 };
 
-/// Of a row that is `ok`.
+/// The costs of a row that is `ok`.
 struct DetectorCosts {
   std::string detector;
-  std::optional<double> playback, cold;  ///< milliseconds per frame; none: not timed so
-  /// By frame, playback; none in frames that were not timed. Empty: no frame was.
+  std::optional<double> playback, cold;  ///< milliseconds per frame; none: not timed
+  /// By frame, playback; none for frames that were not timed. Empty if no frame was.
   std::vector<std::optional<double>> frame_ms;
-  /// Frames with errors, and how many, at the finest level that the detector claims.
+  /// Frames with errors, with their number, at the finest level that the detector claims.
   std::vector<std::pair<std::size_t, std::uint64_t>> missed, spurious;
-  /// (distance in millimetres, milliseconds), near before far: medians of timed frames that are
-  /// about equally far apart, since single frames scatter.
+  /// (distance in millimetres, milliseconds), near before far: medians over timed frames at about
+  /// the same distance, since single frames scatter.
   std::vector<std::pair<double, double>> by_distance;
   std::optional<TouchingCost> touching;  ///< none where no timed frame touches
 };
 
 struct SceneCosts {
-  /// Scenes of one kind at several sizes have one: "contact" of scaling-contact-4 and contact.
+  /// The common name of scenes that differ in size: "contact" for scaling-contact-4 and contact.
   std::string series;
   std::size_t triangles = 0;  ///< of all bodies
-  /// True contacts by frame, at the level at which most are counted.
+  /// True contacts by frame, at the level with the most.
   std::vector<std::uint64_t> truth;
-  /// The smallest distance between surfaces of two bodies by frame, millimetres; empty: unknown.
+  /// The smallest distance between surfaces of two bodies by frame, millimetres; empty if unknown.
   std::vector<double> distance;
   std::vector<DetectorCosts> detectors;
 };

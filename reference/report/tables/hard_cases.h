@@ -1,5 +1,5 @@
-// What families of hard cases say about each detector: how many it gets right, and from which value
-// of the parameter on it goes wrong.
+// Results of each detector in families of hard cases: how many cases it gets right, and from which
+// value of the parameter on it is wrong.
 #pragma once
 
 #include <cstddef>
@@ -13,29 +13,29 @@
 
 namespace contactcheck::report {
 
-/// A row per detector: families and cases, how many of them it answered as it claims, missed and
-/// spurious, errors, refusals, and what a case costs. A family that it refused or failed in has no
-/// case right. None without families.
+/// One row per detector: families and cases, cases answered as claimed, missed and spurious,
+/// errors, refusals, and the cost of a case. A family that it refused or failed in has no case
+/// right. No rows without families.
 TitledTable hard_sums(const results::Index& index);
 
-/// How many cases each detector gets wrong, by family; only those that go wrong somewhere. No rows
-/// when nobody does.
+/// The number of wrong cases of each detector by family, for families and detectors with any. No
+/// rows if all are right.
 HeatTable hard_matrix(const results::Index& index);
 
-/// What a line of a table tells can be looked at in this case.
+/// A case that shows what a line of a table says.
 struct ShownCase {
   std::string detector;
   std::size_t frame;
   std::string kind;  ///< "missed" or "spurious"; empty without an answer
 };
 
-/// A family that somebody goes wrong in. Refers to results that must outlive it.
+/// A family with wrong answers. Refers to results that must outlive it.
 struct WrongFamily {
   const results::Scene& scene;
-  std::string aside;                            ///< how many go wrong
-  std::string sentence;                         ///< what the family is
-  TitledTable table;                            ///< who goes wrong, from which value on
-  std::vector<std::optional<ShownCase>> shown;  ///< per row of it, where it goes wrong first
+  std::string aside;                            ///< how many detectors are wrong
+  std::string sentence;                         ///< describes the family
+  TitledTable table;                            ///< the wrong detectors, and from which value on
+  std::vector<std::optional<ShownCase>> shown;  ///< per row, the first wrong case
 };
 std::vector<WrongFamily> wrong_families(const results::Index& index);
 

@@ -1,4 +1,4 @@
-// What a run found, in words: the top of the page.
+// The findings of a run in words: the top of the page.
 #pragma once
 
 #include <string>
@@ -14,17 +14,17 @@ struct HeadlineFinding {
 };
 
 struct Headline {
-  /// What was found (Results::finding); without it "3 of 5 detectors have no missed and no spurious
-  /// contacts in 2 scenes".
+  /// The finding (Results::finding); else "3 of 5 detectors have no missed and no spurious contacts
+  /// in 2 scenes".
   std::string title;
   std::vector<HeadlineFinding> findings;
   /// The detectors that were right and fastest in some scene, most scenes first.
   std::vector<std::string> fastest;
 };
 
-/// A detector has no missed and no spurious contacts where it was right at every level that it
-/// claims, in every scene that was judged, and never ended in an error. Contact seen farther off
-/// than declared, and errors of depths and normals, are separate findings.
+/// A detector has no missed and no spurious contacts if it was right at every level that it claims,
+/// in every scene that was judged, and never ended in an error. Contact reported beyond the
+/// declared margin, and errors of depths and normals, are separate findings.
 Headline headline_of(const results::Results& results);
 
 }  // namespace contactcheck::report

@@ -1,4 +1,4 @@
-// Tables whose cells have a colour for how wrong they are.
+// Tables with a colour per cell for the share of errors.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@ namespace contactcheck::report {
 
 struct HeatCell {
   std::string text;
-  std::optional<double> share;  ///< of errors, in [0, 1]: the colour; none: no colour
+  std::optional<double> share;  ///< of errors, in [0, 1], shown as colour; none: no colour
   std::string label;            ///< words for pointer and screen reader
   std::string kind = {};        ///< "error", "aside" or empty
 };

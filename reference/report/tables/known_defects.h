@@ -1,4 +1,4 @@
-// Known wrong answers of libraries, compared with those that a run shows.
+// Compares known wrong answers of libraries with those that a run shows.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@ namespace contactcheck::report {
 
 /// "Of 12 listed wrong answers of libraries that this run could show, 9 show as listed, 1 with
 /// another count and 2 do not. 4 show that are not listed." The readings of the paper have a
-/// sentence of their own.
+/// separate sentence.
 std::string known_defects_sentence(const results::DefectCounts& known);
 
-/// The field `known_defects` of results.json in plain lines, for a terminal: all of it, or only
-/// what differs.
+/// The field `known_defects` of results.json as plain lines for a terminal: all of it, or only the
+/// differences.
 std::string defects_text(const results::DefectCounts& known);
 std::string defects_summary(const results::DefectCounts& known);
 

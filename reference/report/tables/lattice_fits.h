@@ -1,4 +1,4 @@
-// What a report says of lattices that were fitted to recordings: how far the scene is from them.
+// The errors of lattices that were fitted to recordings.
 #pragma once
 
 #include <string>
@@ -9,11 +9,10 @@
 namespace contactcheck::report {
 
 /// "judged with lattices fitted to recordings: vertices at most 1.20 mm off (body cloth, frame 7)",
-/// of the vertex farthest from where it was recorded. Empty for scenes without a fitted lattice.
+/// for the vertex with the largest error. Empty for scenes without a fitted lattice.
 std::string fits_line(const results::Scene& scene);
 
-/// Per body the error over all frames and the worst frame. No rows for scenes without a fitted
-/// lattice.
+/// Per body the error over all frames and the worst frame. No rows without a fitted lattice.
 TitledTable fits_table(const results::Scene& scene);
 
 }  // namespace contactcheck::report

@@ -1,4 +1,4 @@
-// What each detector finds, scene by scene, at each level.
+// The contacts that each detector finds, by scene and level.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,14 @@ namespace contactcheck::report {
 /// The levels that some detector claims and was judged at, coarse before fine.
 std::vector<Level> judged_levels(const results::Results& results);
 
-/// A row per detector that claims the level somewhere or did not end well somewhere; a column per
-/// scene that is no family and is shown (scene_choice.h) and, where there are several, the sum over
-/// all.
+/// One row per detector that claims the level somewhere or did not end well somewhere; one column
+/// per shown scene (scene_choice.h) that is not a family and, for several scenes, their sum.
 struct LevelTables {
   HeatTable recall, spurious;
 };
 
-/// `level`: none is each detector's finest in each scene; there a sum is only given where that is
-/// the same in all, since counts of different levels do not add up.
+/// `level`: none means each detector's finest level in each scene. A sum then needs the same level
+/// in all scenes, since counts of different levels do not add up.
 LevelTables level_tables(const results::Index& index, std::optional<Level> level);
 
 }  // namespace contactcheck::report

@@ -1,4 +1,4 @@
-// Where results come from: command, machine, parts of a run.
+// The origin of results: command, machine, parts of a run.
 #pragma once
 
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace contactcheck::report {
 
-/// Command, machine, compiler, libraries, version and how it was timed, a line each; `code` stands
-/// in backticks.
+/// Command, machine, compiler, libraries, version and timing settings, one line each; `code` is in
+/// backticks.
 std::vector<std::string> machine_lines(const results::Results& results);
 
-/// How the times were measured; empty where nothing was timed.
+/// How the times were measured; empty if nothing was timed.
 std::string timing_line(const results::Results& results);
 
-/// What times of this run are worth: its passes set beside one another in pairs, each detector in
-/// each question beside itself, so that every ratio should be 1. Empty where no detector has
-/// passes for kFewestForInterval pairs.
+/// The repeatability of this run's times: passes of each detector in each question are compared in
+/// pairs, so that every ratio should be 1. Empty if no detector has passes for kFewestForInterval
+/// pairs.
 std::string steadiness_line(const results::Results& results);
 
-/// What keeps a reader from taking a part for the whole: of which shard, or of how many, and which
-/// scenes were taken over from an interrupted run. None for a whole run.
+/// Tells a reader that results are a part: the shard, or the number of merged shards, and the
+/// scenes reused from an interrupted run. Empty for a whole run.
 std::vector<std::string> part_sentences(const results::Results& results);
 
 }  // namespace contactcheck::report

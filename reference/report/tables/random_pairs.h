@@ -1,5 +1,5 @@
-// What a report says of a scene of random pairs: how many, from which seed, and what rational
-// arithmetic says of the oracle.
+// A scene of random pairs in reports: number, seed, and the oracle compared with rational
+// arithmetic.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace contactcheck::report {
 /// Empty for scenes without pairs.
 std::string pairs_line(const results::Scene& scene);
 
-/// How many of each kind touch, below that line; no rows for scenes without pairs.
+/// The number of touching pairs by kind, below that line; no rows for scenes without pairs.
 TitledTable pairs_table(const results::Scene& scene);
 
 }  // namespace contactcheck::report

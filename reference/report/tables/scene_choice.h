@@ -1,5 +1,5 @@
-// What a chart can be drawn for: all scenes, all families of hard cases, each scene. And which
-// scenes a report shows one by one.
+// The selections that a chart can be drawn for: all scenes, all families of hard cases, each scene.
+// And the scenes that a report shows one by one.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace contactcheck::report {
 
-/// Scenes that one chart can be drawn for.
+/// A selection of scenes for a chart.
 struct SceneChoice {
   std::string words;  ///< "all 8 scenes"
   std::vector<std::string> ids;
 };
 
-/// From so many drawn scenes on, a report shows sums over them and none by itself.
+/// From this many drawn scenes on, a report shows only sums over them.
 inline constexpr std::size_t kFewestSummedScenes = 10;
 
-/// Scenes that have rows of their own in a report, in the order of the file: all but drawn scenes
-/// where there are many.
+/// The scenes with separate rows in a report, in the order of the file: all except many drawn
+/// scenes.
 std::vector<const results::Scene*> shown_scenes(const results::Results& results);
 
-/// All scenes, all families of hard cases, drawn scenes with and without contact where there are
-/// many, each single scene; as far as there are such. The same for every chart of a report.
+/// All scenes, all families of hard cases, drawn scenes with and without contact if there are many,
+/// each single scene; without empty selections. All charts of a report have the same.
 std::vector<SceneChoice> scene_choices(const results::Results& results);
 
 /// The rows of a detector in these scenes that are `ok`, scene by scene.

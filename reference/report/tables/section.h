@@ -1,4 +1,4 @@
-// What a report consists of: sections, in one list that every format walks.
+// The sections of a report, in one list for all formats.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct Paragraph {
   std::string text;  ///< code is in backticks, here and below
 };
 
-/// Of a part of a section.
+/// The heading of a part of a section.
 struct Heading {
   std::string text;
 };
@@ -23,36 +23,36 @@ struct Items {
   std::vector<std::string> texts;
 };
 
-/// A file beside report.md.
+/// A file next to report.md.
 struct Picture {
-  std::string file, what;  ///< in words, for who cannot see it
+  std::string file, what;  ///< described in words, for readers without pictures
 };
 
-/// A table without rows is not shown, whatever the format, nor a section that has nothing else.
+/// A table without rows is not shown in any format, nor is a section with nothing else.
 using Block = std::variant<Paragraph, Heading, Items, Picture, TitledTable>;
 using Blocks = std::vector<Block>;
 
-/// What a terminal shows of a section: its title, more on the same line, whole lines below, a
-/// table. Not shown without lines and rows.
+/// A section on the terminal: its title, text on the same line, whole lines below, a table. Not
+/// shown without lines and rows.
 struct TerminalPart {
   std::string title, aside, lines;
   TitledTable table = {};
 };
 
 struct Section {
-  const char* id;  ///< its place on the page
+  const char* id;  ///< its anchor on the page
   const char* title;
   const char* short_title;  ///< in the page's contents
-  /// No block that is shown: the results have nothing to say in it.
+  /// Returns no shown block if the results have nothing for this section.
   Blocks (*build)(const results::Index& index);
-  /// None: the terminal does not show it.
+  /// Null: not on the terminal.
   std::vector<TerminalPart> (*terminal)(const results::Index& index) = nullptr;
-  /// The page draws it from fields of its own (page_data.h), and is not given its blocks.
+  /// True: the page draws it from other fields (page_data.h) and does not get its blocks.
   bool drawn_on_page = false;
 };
 
-/// In the order of a report. The one without `build` stands for the scenes one by one, which every
-/// format shows in a way of its own.
+/// In the order of a report. The section without `build` is a placeholder for the scenes, which
+/// each format shows in its way.
 const std::vector<const Section*>& sections();
 
 }  // namespace contactcheck::report

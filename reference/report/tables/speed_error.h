@@ -1,4 +1,4 @@
-// What every detector costs and how often it errs: the points of the chart of speed against error.
+// Cost and errors of every detector: the points of the chart of speed against error.
 #pragma once
 
 #include <optional>
@@ -12,26 +12,25 @@
 
 namespace contactcheck::report {
 
-/// Where the report expects the picture of the chart, beside report.md. No picture of a family has
-/// that name.
+/// The path of the chart's picture next to report.md. No picture of a family has that name.
 inline constexpr const char* kSpeedErrorFile = "plots/speed_error.svg";
 
 /// One detector over several scenes; the counts are sums over them.
 struct SpeedErrorPoint : ErrorCounts {
   std::string detector;
-  /// That was timed; times of different questions do not compare.
+  /// The timed question; times of different questions do not compare.
   Question question = Question::kTriangles;
-  /// Of the counts: the finest that the detector claims in every scene that was judged.
+  /// The level of the counts: the finest that the detector claims in every judged scene.
   Level level = Level::kTriangle;
   double ms = 0.0;  ///< per frame: map + update + query, the mean over all frames; positive
   TimedPart timed;
-  /// By the measure of the chart; in [0, 1].
+  /// The error by the chart's measure; in [0, 1].
   double error = 0.0;
-  /// No other point of the same question is faster without being worse.
+  /// True if every faster point of the same question has more errors.
   bool on_front = false;
 };
 
-/// A detector without a point. `why`, in words.
+/// A detector without a point, and the reason in words.
 struct LeftOut {
   std::string detector, why;
 };
@@ -45,7 +44,7 @@ struct SpeedError {
 /// What counts as a detector's error.
 enum class ErrorMeasure { kWorse, kMissed, kSpurious };
 
-/// What a chart is drawn for.
+/// The choices of one chart.
 struct SpeedErrorChoice {
   std::size_t scenes = 0;           ///< place in SpeedErrorCharts::scenes
   std::optional<Level> level = {};  ///< none: the finest that each detector claims in all of them
@@ -53,7 +52,7 @@ struct SpeedErrorChoice {
   bool cold = false;  ///< times after a sweep through the caches
 };
 
-/// Every chart of a run: what the Markdown report draws is one of those that the HTML page offers.
+/// All charts of a run; the Markdown report draws one of those that the HTML page offers.
 class SpeedErrorCharts {
  public:
   /// `index` must outlive it.
@@ -61,7 +60,7 @@ class SpeedErrorCharts {
 
   const std::vector<SceneChoice>& scenes() const { return scenes_; }
   /// The first choice of scenes that at most half of the detectors fall out of, compared with the
-  /// best: a point needs every scene.
+  /// best choice: a point needs every scene.
   std::size_t first() const;
   SpeedError chart(const SpeedErrorChoice& choice) const;
 
@@ -73,7 +72,7 @@ class SpeedErrorCharts {
 /// The chart that is shown first.
 SpeedError speed_error(const results::Index& index);
 
-/// "Not in the chart: a, b (not timed); c (nothing to judge)."; "" where all are in it.
+/// "Not in the chart: a, b (not timed); c (nothing to judge)."; "" if all are in it.
 std::string left_out_sentence(const SpeedError& chart);
 
 /// Sets `on_front` of every point.
@@ -82,7 +81,7 @@ void mark_front(std::vector<SpeedErrorPoint>& points);
 /// The points as a table.
 const std::vector<Column>& speed_error_columns();
 std::vector<std::string> speed_error_cells(const SpeedErrorPoint& point);
-/// Of these, what differs between the charts of one level.
+/// The cells that differ between the charts of one level.
 std::string speed_error_time(const SpeedErrorPoint& point);
 
 }  // namespace contactcheck::report

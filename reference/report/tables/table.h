@@ -1,4 +1,4 @@
-// Tables, as every format of a report shows them.
+// Tables for all formats of a report.
 #pragma once
 
 #include <string>
@@ -6,31 +6,31 @@
 
 namespace contactcheck::report {
 
-/// What a format treats apart in a column.
+/// Columns that formats treat specially.
 enum class Role {
   kPlain,
   kErrors,   ///< counts, in which every number above 0 is an error
   kTime,     ///< times, or ratios of times
-  kOfTimes,  ///< says something of the times, and nothing where none is shown
+  kOfTimes,  ///< about the times; has no meaning where none is shown
   kVerdict,  ///< "yes" and "no", or why there is no verdict
 };
 
 struct Column {
   std::string title;
-  bool left;                 ///< aligned
+  bool left;                 ///< aligned left
   std::string meaning = {};  ///< for the legend; may be empty
-  std::string id = {};       ///< by which a format finds it; empty where none looks for it
+  std::string id = {};       ///< an id for formats that look the column up; may be empty
   Role role = Role::kPlain;
-  /// Where lines would be too long, columns with a number above 0 are left out, highest first.
+  /// If lines are too long, columns with a number above 0 are left out, highest first.
   int spare = 0;
 };
 
-/// A table with what is said above it. Code is in backticks.
+/// A table with a title and a text above it. Code is in backticks.
 struct TitledTable {
   std::string title, text;  ///< either may be empty
   std::vector<Column> columns;
   std::vector<std::vector<std::string>> rows;
-  std::string id = {};  ///< where something leads to it
+  std::string id = {};  ///< an anchor, if something links to it
 };
 
 }  // namespace contactcheck::report

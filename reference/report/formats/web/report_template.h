@@ -5,7 +5,7 @@
 
 namespace contactcheck::report {
 
-/// With the placeholders @results@ and @view@; empty in a build without npm.
+/// Contains the placeholders @results@ and @view@; empty in a build without npm.
 extern const std::string_view kReportTemplate;
 
 }  // namespace contactcheck::report

@@ -1,6 +1,6 @@
-// Everything that an installed program may use of what judges: the command line with detectors of
-// its own, the other libraries' detectors, the oracle, the comparison of an answer with the ground
-// truth, and results.json. Other headers of reference are not installed.
+// The public API of the judging part for installed programs: the command line with detectors of
+// their own, the other libraries' detectors, the oracle, the comparison of an answer with the
+// ground truth, and results.json. Other headers of reference are not installed.
 #pragma once
 
 #include "core/core.h"

@@ -1,5 +1,5 @@
-// What each .cpp file of an adapted library gives to register.cpp. The library's types stay in
-// there.
+// The functions through which register.cpp gets the detectors of each adapted library. The
+// library's types stay in its .cpp file.
 #pragma once
 
 #include <string>

@@ -1,10 +1,11 @@
-// What the adapters of libraries share that test two bodies at a time: which pairs of bodies are
-// worth a test. Sweep and prune over the bodies' boxes names them; a body in none of these pairs is
-// not given to the library in that frame.
+// The base of adapters for libraries that test two bodies at a time. Sweep and prune over the
+// bodies' boxes finds the candidate pairs; a body without a candidate pair is not given to the
+// library in that frame.
 //
-// With prefilter=nodes the boxes are first those of the lattice nodes, and only bodies in a pair of
-// these are mapped, by the detector itself: a reference then has what ffd-lazy has. A box of nodes
-// holds the body, since a mapped vertex is a mean of its cell's nodes but for rounding.
+// With prefilter=nodes the boxes are first those of the lattice nodes, and only bodies of a
+// candidate pair are mapped, by the detector itself, which gives a reference the same prefilter as
+// ffd-lazy. A box of nodes contains the body up to rounding, since a mapped vertex is a mean of its
+// cell's nodes.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@ OptionInfo prefilter_option();
 /// @pre the detector has prefilter_option()
 Prefilter prefilter_of(const Options& options);
 
-/// What all of these are given, for DetectorInfo::given.
+/// The common part of DetectorInfo::given.
 inline constexpr const char* kSweepAndPrune =
     "sweep and prune over the bodies' boxes; bodies that meet no other are not refitted; ";
 
@@ -36,7 +37,7 @@ inline double largest_coordinate(const Aabb& box) {
 /// A body in at least one candidate pair of the frame.
 struct CandidateBody {
   std::uint32_t body = 0;
-  std::span<const Vec3> vertices;  ///< until the next update
+  std::span<const Vec3> vertices;  ///< valid until the next update
   Aabb box;                        ///< of the vertices, exact
 };
 
@@ -51,23 +52,23 @@ class BodyPairDetector : public Detector {
  protected:
   explicit BodyPairDetector(Prefilter prefilter) : prefilter_(prefilter) {}
 
-  /// For prepare(). `margin`: metres by which the library's own boxes are wider than the vertices;
-  /// `rounding`: by how much of a coordinate they may be, too.
-  /// @throws RefusedInput as refuse_many_adjacent_pairs() does, where self-contact is expected;
-  /// elsewhere query() does
+  /// To be called by prepare(). `margin`: metres by which the library's boxes exceed the vertices;
+  /// `rounding`: the same as a share of the coordinates.
+  /// @throws RefusedInput as refuse_many_adjacent_pairs() does, if self-contact is expected;
+  /// otherwise query() does
   void set_bodies(const std::vector<Body>& bodies, double margin = 0.0, double rounding = 0.0);
-  /// Of every body in every frame: what the library cannot take.
+  /// Refuses coordinates that the library cannot take. Called for every body in every frame.
   /// @throws RefusedInput
   virtual void check(const Aabb&) const {}
-  /// The bodies that may meet another in this frame; the others keep what they had.
+  /// Updates the bodies that may meet another in this frame; the others keep their state.
   virtual void move(std::span<const CandidateBody> bodies) = 0;
-  /// The candidate pairs of the frame, ascending, one after the other.
+  /// Called for the candidate pairs of the frame, one after another, ascending.
   virtual void collide(BodyPair pair, Question question, ContactSet& out) = 0;
-  /// A body with itself, after move() of it. Of those that answer the question `self`.
+  /// Called after move() of the body, for detectors that answer the question `self`.
   virtual void collide_self(std::uint32_t, ContactSet&) {}
 
   const std::vector<BodyPair>& candidate_pairs() const { return pairs_; }
-  /// What the last update has given to move().
+  /// The bodies that the last update gave to move().
   const std::vector<CandidateBody>& candidates() const { return candidates_; }
   std::span<const Vec3> vertices(std::uint32_t body) const { return vertices_[body]; }
   const BodyShape& shape(std::uint32_t body) const { return *shapes_[body]; }

@@ -1,9 +1,9 @@
-// libccd's calls on two convex pieces given by points, with an end that libccd alone lacks.
+// Calls of libccd for two convex pieces given by points, with iteration limits that libccd lacks.
 //
-// How a loop is ended. EPA and MPR's portal loops run until no point lies further out, and nothing
-// counts their rounds. All of them ask a support function for that point: the ones here count, and
-// past the limit they name a point on the wrong side of the origin. Each loop takes it for "nothing
-// further out", leaves by its own exit and frees what it holds. What it then says is not used.
+// How a loop is ended. EPA and MPR's portal loops run until no point lies further out, without
+// counting rounds. All of them call a support function for that point: the ones here count, and
+// above the limit return a point on the wrong side of the origin. Each loop then finds nothing
+// further out, leaves by its own exit and frees its memory. Its result is not used.
 //
 // Limits, in support points of the difference (one of each piece), by option `iterations` = n:
 //   GJK  1 + n for the verdict (libccd's own limit), n + 64 more for the depth (EPA: 46 at most to
@@ -26,9 +26,8 @@ enum class CcdAlgorithm { kGjk, kMpr };
 struct CcdSettings {
   CcdAlgorithm algorithm = CcdAlgorithm::kGjk;
   std::uint32_t iterations = 100;
-  /// libccd is fed points times this, and its units are metres / scale; 0: times a power of two of
-  /// each pair's own, at which its larger piece is 1/4 to 1/2 (GJK) or 1/2 to 1 (MPR) units
-  /// wide.
+  /// libccd is fed points times this, so its units are metres / scale. 0: a power of two per pair,
+  /// at which the larger piece is 1/4 to 1/2 (GJK) or 1/2 to 1 (MPR) units wide.
   double scale = 0.0;
   double epa_tolerance = 1e-12;  ///< square units: EPA compares squared distances with it
   double mpr_tolerance = 1e-9;   ///< units
@@ -45,25 +44,24 @@ struct CcdTranslation {
 
 struct CcdPenetration {
   bool contact = false;
-  std::optional<CcdTranslation>
-      translation;  ///< none where libccd gave none that is finite and unit
+  std::optional<CcdTranslation> translation;  ///< none if libccd gave none that is finite and unit
 };
 
 class CcdCaller {
  public:
   explicit CcdCaller(const CcdSettings& settings) : settings_(settings) {}
 
-  /// Do they share a point? False too where the limit was reached.
+  /// True if the pieces share a point; false also if the limit was reached.
   bool intersect(CcdPiece a, CcdPiece b);
-  /// The same verdict, and how to part them.
+  /// The same verdict, and the translation that separates them.
   /// @throws std::runtime_error when libccd is out of memory
   CcdPenetration penetrate(CcdPiece a, CcdPiece b);
 
-  /// Forgets what notes() is about.
+  /// Resets the counts of notes().
   void begin_frame() { verdict_limits_ = depth_limits_ = without_direction_ = 0; }
-  /// Of all calls since begin_frame().
+  /// Notes on all calls since begin_frame().
   std::vector<std::string> notes() const;
-  /// Since the beginning.
+  /// Counted since construction.
   std::uint64_t support_calls() const { return support_calls_; }
 
   std::uint64_t verdict_limits() const { return verdict_limits_; }

@@ -1,4 +1,4 @@
-// The words of the command line as data, for pages and scripts that must not be written twice.
+// The words of the command line as data, from which pages and scripts are generated.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class FormatterBase;
 namespace contactcheck::cli {
 
 struct OptionWords {
-  std::vector<std::string> flags;  ///< with their dashes; of a positional its name alone
+  std::vector<std::string> flags;  ///< with their dashes; a positional has its name only
   std::string value;               ///< what follows ("DIR"); empty: nothing
   std::string help;
   bool positional = false, required = false;
@@ -35,10 +35,10 @@ struct ProgramWords {
 };
 
 ProgramWords words_of(const CLI::App& app);
-/// Of the program as it is with the detectors of `catalog`, which its help names.
+/// The words of the program with the detectors of `catalog`, which its help names.
 ProgramWords program_words(const DetectorCatalog& catalog);
 
-/// Help with one line an option, in the same words.
+/// A formatter with one line per option, in the same words.
 std::shared_ptr<CLI::FormatterBase> help_formatter();
 
 }  // namespace contactcheck::cli

@@ -1,6 +1,6 @@
-// The subcommands. Each returns an exit code: 0 the work was done, 1 a check says
-// no, 2 bad usage or bad input, 3 a detector ended in an error that no list knows. InputError
-// passes through to contactcheck_main, which makes it 2.
+// The subcommands. Each returns an exit code: 0 done, 1 a check failed, 2 bad usage or bad input, 3
+// a detector ended in an error that known-defects.json does not list. InputError passes through to
+// contactcheck_main, which makes it 2.
 #pragma once
 
 #include <cstddef>
@@ -22,21 +22,21 @@
 namespace contactcheck::cli {
 
 struct RunArguments : suite::RunTargets {
-  std::vector<std::string> commands;  ///< detectors that are talked to over pipes
-  std::string detectors_of;           ///< a suite, whose detectors run before these; empty: none
+  std::vector<std::string> commands;  ///< detectors that run as processes, over pipes
+  std::string detectors_of;           ///< a suite whose detectors run before these; empty: none
   std::size_t step_repeats = suite::RunSettings{}.step_repeats;
   std::optional<std::size_t> processes;  ///< passes of every detector; none: see RunSettings
   std::filesystem::path out = "out";
-  std::optional<suite::Shard> shard;  ///< run this part alone
+  std::optional<suite::Shard> shard;  ///< run only this part
   bool timing = true, quiet = false, resume = false;
   bool explain = false;      ///< what the columns mean
-  bool reduce = false;       ///< the first wrong answers, when all has run
-  bool json_lines = false;   ///< events on stdout, and nothing else there
+  bool reduce = false;       ///< reduce the first wrong answers after the run
+  bool json_lines = false;   ///< write events to stdout, and nothing else
   bool closed_loop = false;  ///< simulated scenes: drive them with every detector too
   double call_limit = suite::RunSettings{}.call_limit;  ///< seconds
   std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
   std::string command_line;                 ///< for the record
-  std::optional<results::Finding> finding;  ///< what is run for
+  std::optional<results::Finding> finding;  ///< the finding of `check`, for the page
 };
 
 struct ExportArguments {
@@ -49,13 +49,13 @@ struct ExportArguments {
 struct ListArguments {
   bool suites = false, scenes = false, families = false, detectors = false;
   std::vector<std::string> named;     ///< detectors alone, by name or library
-  std::vector<std::string> commands;  ///< and these, that are talked to over pipes
+  std::vector<std::string> commands;  ///< the same for detectors that run as processes
 };
 
 struct ReduceArguments {
   std::string target;    ///< a case file, or what `run` takes as a scene, with "@FRAME" behind it
-  std::string detector;  ///< name or library; empty: the case's
-  std::string command;   ///< of the detector, one that is talked to over pipes; empty: none
+  std::string detector;  ///< name or library; empty: that of the case
+  std::string command;   ///< of a detector that runs as a process; empty: none
   std::string level, kind;       ///< empty: the case's, or what is found first
   std::filesystem::path out;     ///< file; empty: beside the case, or in out/cases
   std::string language = "c++";  ///< of the test that is printed: c++, c or python
@@ -69,7 +69,7 @@ struct GateArguments {
   std::filesystem::path results, policy;
   std::filesystem::path baseline, junit;  ///< empty: none
   bool github = false;
-  bool advisory_times = false;  ///< rules on times are shown and do not make the gate red
+  bool advisory_times = false;  ///< rules on times are shown and do not fail the gate
 };
 
 struct AbArguments {
@@ -87,8 +87,8 @@ struct TuneArguments {
   std::string target;
   std::string question = "body";
   std::vector<std::string> detectors;  ///< names or libraries; empty: all that answer
-  std::vector<std::string> commands;   ///< detectors that are talked to over pipes
-  std::vector<double> lattices;        ///< beside the scene's own
+  std::vector<std::string> commands;   ///< detectors that run as processes
+  std::vector<double> lattices;        ///< in addition to the scene's own
   std::vector<std::string> deformers;  ///< of a simulated scene; "all" among them: all
   std::optional<std::uint64_t> max_missed, max_spurious;
   std::optional<double> max_hover, max_deviation;  ///< metres
@@ -113,38 +113,38 @@ struct CheckArguments {
 /// Which frames have contacts that are not allowed; 1 when one has.
 int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog);
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
-/// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
+/// Runs the suite `paper` (or the targets), in closed loop too, and compares it with the paper's
 /// tables.
 int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog);
-/// Writes a folder to begin with: scene, detector, policy and CI job, which run unchanged.
-/// @throws InputError: an unknown language, a folder that has something in it
+/// Writes a starter folder: scene, detector, policy and CI job, which run unchanged.
+/// @throws InputError for an unknown language or a folder that is not empty
 int init_command(const std::filesystem::path& folder, const std::string& language);
-/// Searches the cheapest configuration within limits; 1 when it finds none.
+/// Searches for the cheapest configuration within limits; 1 if there is none.
 int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog);
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog);
-/// Prints the exact answers to families of hard cases (all, if none is named); `write` puts them
-/// into fixtures/hard/expected.json.
+/// Prints the exact answers to families of hard cases (to all if none is named); `write` stores
+/// them in fixtures/hard/expected.json.
 int truth_command(const std::vector<std::string>& families, bool write);
 /// Writes a folder per scene into `out`: frames, certificates of their truth, and their checker.
 int export_command(const ExportArguments& arguments, const DetectorCatalog& catalog);
 /// fixtures/hard: known-defects.json, readings.json and ranges.json
 std::filesystem::path hard_cases_folder();
-/// Prints known wrong answers beside those that a run shows; 1 when they differ, also in a count.
-/// Of the suite scales it compares ranges. `write` makes the files say what the run shows.
+/// Compares known wrong answers with those of a run; 1 if they differ, also in a count. For the
+/// suite scales it compares ranges. `write` updates the files to what the run shows.
 int defects_command(const std::filesystem::path& results, bool write);
 /// Shrinks a disagreement to a minimal case, writes it and prints it as a test.
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog);
 /// Prints what differs between two results; with `fail` 1 when an answer is worse or a row is gone.
 int diff_command(const std::filesystem::path& before, const std::filesystem::path& after,
                  bool fail);
-/// Holds results against a policy; 1 when it says no. `github` adds annotations on standard output
-/// and appends to the file that GITHUB_STEP_SUMMARY names, where it does.
+/// Checks results against a policy; 1 if it fails. `github` adds annotations on standard output and
+/// appends to the file that GITHUB_STEP_SUMMARY names, if it is set.
 int gate_command(const GateArguments& arguments);
-/// Writes results as a baseline, and prints what it changes against the one in its place.
+/// Writes results as a baseline, and prints the changes against the baseline that it replaces.
 int accept_command(const std::filesystem::path& results, const std::filesystem::path& baseline);
 /// Compares two builds; 1 when head is slower than allowed or answers differently.
 int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog);
-/// Puts the results of all shards of a run together, with their reports.
+/// Merges the results of all shards of a run, and writes their reports.
 int merge_command(const std::vector<std::string>& results, const std::filesystem::path& out);
 /// `formats`: of "csv", "html" and "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,

@@ -1,5 +1,5 @@
-// Completion of the command line by shells. Names of scenes, suites and detectors are asked of the
-// program when they are wanted.
+// Shell completion of the command line. The shell gets names of scenes, suites and detectors from
+// the program when they are needed.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ enum class ValueKind { kNothing, kFile, kScenes, kFamilies, kDetectors, kFormats
 
 ValueKind kind_of(const OptionWords& option);
 
-/// The first positional of the command; nothing: it takes flags alone.
+/// The kind of the command's first positional; kNothing: it takes only flags.
 ValueKind words_kind(const CommandWords& command);
 
 /// A pipe of shell commands that prints the names there are, one a line. `program`: how the shell

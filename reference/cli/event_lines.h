@@ -18,14 +18,14 @@ std::string progress_event(const suite::SuiteProgress& progress,
 std::string scene_event(const suite::SceneEnd& end);
 std::string end_event(const std::filesystem::path& out, int exit_code);
 
-/// Prints events to stdout, each at once: who reads them wants to know now.
+/// Prints events to stdout and flushes after each.
 class EventLines {
  public:
   explicit EventLines(bool wanted) : wanted_(wanted) {}
 
   bool wanted() const { return wanted_; }
   void print(const std::string& event) const;
-  /// The first of a scene, and further ones four times a second at most.
+  /// Prints the first progress of a scene, and then at most four a second.
   void progress(const suite::SuiteProgress& progress, std::optional<double> seconds_left);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace contactcheck::cli {
 
-/// What GITHUB_STEP_SUMMARY names; empty where it names nothing.
+/// The path in GITHUB_STEP_SUMMARY; empty if it is not set.
 std::filesystem::path github_summary_file();
 
 /// Appends Markdown: GitHub gives every step a file of its own, to which all its commands append.

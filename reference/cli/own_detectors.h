@@ -10,24 +10,24 @@
 
 namespace contactcheck::cli {
 
-/// The detectors of a command line, with all that it takes to make them.
+/// The detectors of a command line, with everything needed to make them.
 struct OwnDetectors {
   std::vector<std::string> names;  ///< as the catalogue parses them, in the order they were given
-  std::vector<plugin::Plugin> plugins;  ///< those from outside that they or others may name
+  std::vector<plugin::Plugin> plugins;  ///< plug-ins that these or other names may refer to
   DetectorCatalog catalog;              ///< of the program and of these
 
-  /// The plug-ins as workers are handed them.
+  /// The plug-ins as strings for workers.
   std::vector<std::string> records() const;
   std::vector<std::string> ids() const;  ///< theirs
 };
 
-/// True when `text` ("./libmine.so:leaf=8") names a library's file and no detector's id: before the
-/// first ':' there is a '/' or, at the end, ".so".
+/// True if `text` ("./libmine.so:leaf=8") names a library's file and not a detector's id: before
+/// the first ':' it contains '/' or ends with ".so".
 bool names_library(const std::string& text);
 
 /// Examines every library among `detectors` and every command, each once, within the limits of
-/// `settings`; nothing else runs before.
-/// @throws InputError: one cannot be used, or two call themselves the same
+/// `settings`, before anything else runs.
+/// @throws InputError if one cannot be used, or two have the same id
 OwnDetectors load_own_detectors(const std::vector<std::string>& detectors,
                                 const std::vector<std::string>& commands,
                                 const suite::RunSettings& settings, const DetectorCatalog& catalog);

@@ -6,8 +6,8 @@
 namespace contactcheck::cli {
 
 /// Does what `contactcheck ARGUMENTS...` does with the detectors of `catalog`. Workers are started
-/// from the running program: its main must be nothing but this call with the same catalogue, and no
-/// thread may have been started before it. Returns the exit code.
+/// from the running program, so its main must only call this function, with the same catalogue,
+/// before any thread is started. Returns the exit code.
 int contactcheck_main(int argc, char** argv, const DetectorCatalog& catalog);
 
 }  // namespace contactcheck::cli

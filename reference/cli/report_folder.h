@@ -12,7 +12,7 @@
 
 namespace contactcheck::cli {
 
-/// What `report` makes when it is not told, of "csv", "html" and "md".
+/// The formats that `report` makes by default, of "csv", "html" and "md".
 std::vector<std::string> all_report_formats();
 
 /// @throws InputError for an unknown format
@@ -26,17 +26,17 @@ std::map<std::string, std::string> report_texts(
     const std::vector<std::string>& formats,
     const std::optional<report::PaperPart>& paper = std::nullopt);
 
-/// Of the reproduction.json beside results.json, where that is of the same run.
+/// The page's part from reproduction.json next to results.json, if that is of the same run.
 /// @throws InputError when it cannot be read, or was written by another version
 std::optional<report::PaperPart> paper_part_in(const std::filesystem::path& folder,
                                                const results::Results& results);
 
-/// Where the reports among `files` are, one behind the other; also what was left out, and why.
+/// The paths of the reports among `files`, joined; also what was left out, and why.
 std::string report_paths(const std::filesystem::path& folder,
                          const std::map<std::string, std::string>& files);
 
-/// Writes files, by path below `folder`, each under a temporary name first. Pictures of an earlier
-/// report (plots/*.svg) go. @throws InputError when a file cannot be written
+/// Writes files, by path below `folder`, each under a temporary name first. Removes pictures of an
+/// earlier report (plots/*.svg). @throws InputError if a file cannot be written
 void write_report(const std::filesystem::path& folder,
                   const std::map<std::string, std::string>& files);
 

@@ -26,7 +26,7 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
 void reduce_first_errors(const results::Results& results, const RunArguments& run,
                          const DetectorCatalog& catalog);
 
-/// Says on standard error when it is the oracle that is wrong.
+/// Also says on standard error if the oracle is wrong.
 int exit_code_of(const suite::SuiteOutcome& outcome);
 
 }  // namespace contactcheck::cli

@@ -1,4 +1,4 @@
-// Rules that are judged on any machine: what was answered, not how fast.
+// Rules about answers, not times; these are judged on any machine.
 #pragma once
 
 #include <optional>
@@ -17,18 +17,18 @@ namespace contactcheck::gate {
 Check judge_accuracy(const Rule& rule, const results::Index& now, const results::Index* before,
                      const results::Run& row);
 
-/// The same of a scene with random pairs, for a rule about oracle_wrong.
+/// The same for a scene with random pairs and a rule about oracle_wrong.
 Check judge_oracle(const Rule& rule, const results::Scene& scene);
 
-/// The level that a rule looks at in this row: its own, or the finest claimed and judged; none
-/// when no level of the row was judged.
+/// The level that a rule looks at in this row: the rule's, or the finest claimed and judged; none
+/// if the row was judged at no level.
 std::optional<Level> level_of(const Rule& rule, const results::Run& row);
 
 /// "cannot judge", with a reason.
 Check cannot_judge(const Rule& rule, const std::string& reason);
 
-/// The baseline's row of the same scene and detector if it ended well; else null, and `reason` says
-/// what is in its place.
+/// The baseline's row of the same scene and detector if its status is `ok`; else null, and `reason`
+/// says why.
 const results::Run* row_before(const results::Index& before, const results::Run& row,
                                std::string& reason);
 

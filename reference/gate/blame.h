@@ -1,4 +1,4 @@
-// Where to look first, and the command that shows it.
+// Where to look first in a failed check, and the command that shows it.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace contactcheck::gate {
 
-/// "frame 7": the one with most of what the rule counts, from the counts per frame where they are
-/// of the rule's level, else the first disagreement of that level; of a row that ended in an error
-/// the frame at which it did. "frame 7 (0.5)" with the parameter's value in a family of cases.
-/// Empty when the results do not say.
+/// "frame 7": the frame with most of what the rule counts, if the counts per frame are at the
+/// rule's level; else the first disagreement at that level; for a row with status `error` the frame
+/// of the error. "frame 7 (0.5)" adds the parameter's value in a family of cases. Empty if the
+/// results do not contain it.
 std::string worst_frame(const Rule& rule, const results::Index& index, const results::Run& row);
 
 /// A shell command that runs this row again: the scene, as the results' own command names it where

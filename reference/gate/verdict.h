@@ -1,4 +1,4 @@
-// What a gate has found: one check per rule, scene and detector.
+// The result of a gate: one check per rule, scene and detector.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ enum class Verdict {
   kPass,
   kFail,
   kTooNoisy,    ///< a ratio of times whose interval contains the limit and is wide
-  kCannotJudge  ///< no such number in the results, none to compare it with, or too few passes
+  kCannotJudge  ///< the results have no such number, none to compare, or too few passes
 };
 
 /// "pass", "fail", "too noisy to judge", "cannot judge"
@@ -19,14 +19,14 @@ const char* name_of(Verdict verdict);
 
 struct Check {
   std::string rule, why;        ///< the second as the policy says it; may be empty
-  std::string scene, detector;  ///< both may be empty: of a rule that matches nothing
+  std::string scene, detector;  ///< both may be empty, for a rule that matches nothing
   Verdict verdict = Verdict::kPass;
-  bool red = false;      ///< the gate says no because of it
-  std::string measured;  ///< "missed 3 at level triangle"; empty where nothing was measured
+  bool red = false;      ///< the gate fails because of it
+  std::string measured;  ///< "missed 3 at level triangle"; empty if nothing was measured
   std::string allowed;   ///< "at most 0"
-  std::string reason;    ///< why it cannot be judged, what else is to be known; may be empty
-  std::string frame;     ///< the worst one: "frame 7"; empty where there is none
-  std::string rerun;     ///< the command that shows it again; empty where there is none
+  std::string reason;    ///< why it cannot be judged, or other remarks; may be empty
+  std::string frame;     ///< the worst one: "frame 7"; may be empty
+  std::string rerun;     ///< the command that shows it; may be empty
 };
 
 struct GateResult {

@@ -3,7 +3,7 @@
 
 namespace contactcheck::process {
 
-/// `gate`, `ab` and `tune`: the answer is no.
+/// A check said no: `gate`, `ab`, `diff` and `tune`; `check` and `defects` return 1, too.
 inline constexpr int kExitNo = 1;
 /// Bad usage or bad input; one sentence says what.
 inline constexpr int kExitBadInput = 2;

@@ -9,14 +9,14 @@
 
 namespace contactcheck::process {
 
-/// A signal that asks this program to end: thrown where it is noticed, so that what must not stay
-/// is taken away on the way out.
+/// A signal that asks this program to end; thrown where it is noticed, so that destructors clean
+/// up.
 struct Interrupted {
   int signal = 0;
 };
 
-/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT are only remembered, unless they are ignored
-/// or handled by the program already. One at a time.
+/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT are only recorded, unless the program
+/// already ignores or handles them. At most one guard at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -24,7 +24,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Has one of them come?
+  /// True if one of them was received.
   bool interrupted() const;
   /// Throws the signal that came, as Interrupted. @pre interrupted()
   [[noreturn]] void pass_on();

@@ -8,14 +8,14 @@
 
 namespace contactcheck::process {
 
-/// `root` and its descendants, as far as the kernel tells (children of one that has ended are its
-/// no longer).
+/// `root` and its descendants, as far as the kernel knows (children of an ended process no longer
+/// count as its descendants).
 std::vector<pid_t> process_tree(pid_t root);
 
 /// The resident memory of a process and its descendants, bytes; shared pages count once for each.
 std::uint64_t resident_bytes_of_tree(pid_t root);
 
-/// Ends them all. @pre root has not been reaped
+/// Kills the whole tree. @pre root has not been reaped
 void kill_tree(pid_t root);
 
 /// From now on orphans among this process's descendants become its children, wherever they have

@@ -1,5 +1,5 @@
-// What a worker tells its supervisor while it works, through shared memory: it survives the
-// worker's death, so that a crash is booked on the right detector, frame and phase.
+// A worker's progress in shared memory. It survives the worker's death, so that a crash is
+// attributed to the right detector, frame and phase.
 #pragma once
 
 #include <atomic>
@@ -55,12 +55,12 @@ struct SharedProgress {
   static constexpr std::uint32_t kNoDetector = ~0u;
 
   std::atomic<std::uint32_t> detector{kNoDetector};  ///< position in the job's list
-  /// The detector that ran last, also while the suite's own code runs: what it has broken in memory
-  /// strikes there.
+  /// The detector that ran last, also while the suite's own code runs: if it has corrupted memory,
+  /// the crash may come there.
   std::atomic<std::uint32_t> last_detector{kNoDetector};
   std::atomic<std::uint32_t> frame{0};
   std::atomic<Phase> phase{Phase::kScene};
-  std::atomic<std::uint64_t> ticks{0};      ///< grows with every step: a stand-still is a hang
+  std::atomic<std::uint64_t> ticks{0};      ///< grows with every step; a standstill means a hang
   std::atomic<std::uint32_t> permille{0};   ///< of the worker's work, for the progress bar
   std::atomic<std::int32_t> supervisor{0};  ///< its process id
 };

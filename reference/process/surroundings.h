@@ -1,5 +1,5 @@
-// A worker's place among processes: its supervisor, and everything that a detector may change for
-// the detectors that come after it.
+// A worker among processes: its supervisor, and the global state that a detector may change for the
+// detectors after it.
 #pragma once
 
 #include <signal.h>
@@ -13,8 +13,8 @@
 
 namespace contactcheck::process {
 
-// What detectors write to the worker's standard output and error, which the supervisor has pointed
-// at files of its own: noted in the row of the detector that wrote it.
+// Records what detectors write to the worker's standard output and error, which the supervisor has
+// redirected to files, in the row of that detector.
 
 /// Watches both streams. Between detectors only: it empties buffers and makes system calls.
 class OutputWatch {
@@ -47,8 +47,8 @@ class OutputWatch {
   std::vector<Stream> streams_;
 };
 
-// What a library may change for the whole process: the locale (a decimal comma in every number
-// that is printed from then on), the working directory, handlers of signals, timers.
+// What a library may change for the whole process: the locale (a decimal comma in all later
+// output), working directory, file mode mask, signal handlers and mask, timers.
 
 /// Remembers the state of the process at construction. Costs about a hundred system calls: between
 /// detectors only, never while one is timed.
@@ -84,7 +84,7 @@ void end_with_supervisor();
 /// its supervisor. `fallback` where there is no such page.
 SharedProgress* join_supervisor(int progress_fd, SharedProgress* fallback);
 
-/// Of a whole worker. Between detectors only: see OutputWatch and ProcessGuard.
+/// Both of the above for a whole worker. Only between detectors: see OutputWatch and ProcessGuard.
 class Surroundings {
  public:
   /// `supervised`: the standard streams are the supervisor's files.

@@ -1,4 +1,4 @@
-// The worker as an operating system's process: with streams of its own, in a group of its own.
+// The worker as a process of the operating system, with separate streams and process group.
 #pragma once
 
 #include <sys/types.h>
@@ -35,13 +35,12 @@ class MemoryFile {
   int fd_;
 };
 
-/// A running worker. Its standard input is empty; its standard output and error are files that only
-/// it and this object know, opened for appending. It leads a process group, so that children of a
-/// library end with it.
+/// A running worker. Its standard input is empty; its standard output and error are private files,
+/// opened for appending. It leads a process group, so that children of a library end with it.
 class WorkerProcess {
  public:
-  /// Under which number the worker finds the descriptor that it is given; also the end of the
-  /// numbers that its standard streams take.
+  /// The number under which the worker finds the descriptor that it inherits; all numbers below are
+  /// its standard streams.
   static constexpr int kInheritedFd = 3;
 
   /// Runs `executable ARGUMENTS...` with the descriptor `inherited_fd` as kInheritedFd.
@@ -59,11 +58,11 @@ class WorkerProcess {
   /// its status as waitpid does.
   int reap();
 
-  /// With all that it has started.
+  /// Resident memory of the worker and all processes that it has started, bytes.
   std::uint64_t resident_bytes() const { return resident_bytes_of_tree(child_.pid()); }
-  /// What it has written and not taken back, both streams together.
+  /// Bytes written and not yet taken by the worker, both streams together.
   std::uint64_t output_bytes() const { return output_.size() + errors_.size(); }
-  /// What stands on its standard error.
+  /// The text of its standard error.
   std::string error_text() const;
 
  private:

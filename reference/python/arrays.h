@@ -1,5 +1,5 @@
-// Arrays of Python as our types and back. What is no such array is refused with the name that the
-// caller knows it by, the place and the value.
+// Converts NumPy arrays to our types and back. Other input is refused with the caller's name for
+// it, the place and the value.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -20,7 +20,7 @@ namespace py = pybind11;
 /// shapes and types, for numbers that a double rounds, and for NaN and infinity unless `any_value`
 std::vector<Vec3> read_points(const py::object& object, const std::string& name,
                               bool any_value = false);
-/// The same into a vector whose memory is used again.
+/// The same, into a vector whose memory is reused.
 void read_points(const py::object& object, const std::string& name, std::vector<Vec3>& out,
                  bool any_value = false);
 

@@ -1,4 +1,4 @@
-// What Python asks of the oracle: about meshes as they are, without a scene or a detector.
+// The oracle for Python: queries about meshes, without a scene or a detector.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -19,7 +19,7 @@ namespace py = pybind11;
 struct Shape {
   std::shared_ptr<const BodyShape> body;
   double smoothing = 0.0;  ///< of the fit
-  /// Of a lattice, made when it is first asked for: it takes longer than the lattice.
+  /// The fit of a lattice, made on first use because it takes longer than the lattice.
   struct Fit {
     std::once_flag made;
     std::optional<scene::LatticeFit> value;

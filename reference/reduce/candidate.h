@@ -1,5 +1,4 @@
-// What is reduced: two meshes in one place, or one that meets itself, and how they become a scene
-// of one frame.
+// What is reduced: two meshes, or one with self-contact, and how they become a scene of one frame.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +13,13 @@
 
 namespace contactcheck::reduce {
 
-/// One frame of two bodies, or of one, as a detector is given it.
+/// One frame of two bodies, or of one, as input of a detector.
 struct Snapshot {
   std::vector<Body> bodies;
   std::vector<std::vector<Vec3>> nodes;  ///< per body
 };
 
-/// Two meshes, or one, whose vertices stand where they are judged.
+/// Two meshes, or one, with the vertices at their judged positions.
 struct CaseCandidate {
   std::vector<std::string> names;  ///< of the bodies
   std::vector<TriangleMesh> meshes;

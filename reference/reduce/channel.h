@@ -1,4 +1,4 @@
-// Messages between this program and a worker that waits for questions.
+// Messages between this program and a worker that answers requests.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace contactcheck::reduce {
 /// One end of a stream socket; messages are byte strings of any length.
 class Channel {
  public:
-  /// Takes the descriptor over.
+  /// Takes ownership of the descriptor.
   explicit Channel(int fd) : fd_(fd) {}
   ~Channel();
   Channel(Channel&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
@@ -26,7 +26,7 @@ class Channel {
   int fd() const { return fd_; }
   /// False when the other side is gone.
   bool send(std::string_view message) const;
-  /// Waits for a message; none when the other side is gone (or speaks another language).
+  /// Waits for a message; none if the other side is gone (or sends something else).
   std::optional<std::string> receive() const;
   /// True when something can be read (or the other side is gone) within the time.
   bool waits(std::chrono::milliseconds time) const;

@@ -1,4 +1,4 @@
-// Finds the frame and the two bodies of which a detector's error is reduced.
+// Finds the frame and the two bodies in which a detector's error is reduced.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@
 
 namespace contactcheck::reduce {
 
-// Asks a detector about frames of two bodies, one after the other, in a separate process. A
-// detector that crashes, hangs or eats memory ends that process, and that is its answer.
+// Queries a detector about frames of two bodies, one after another, in a separate process. If it
+// crashes, hangs or exhausts memory, only that process ends, and this is its answer.
 
 struct ProbeSettings {
   std::filesystem::path executable;  ///< this program, for its hidden subcommand `probe`
@@ -73,14 +73,14 @@ std::string where(const ReductionTask& task);
 /// error without one). Bodies are always judged, as in any scene of several.
 std::vector<Level> levels_for(const std::string& level_name, bool self);
 
-/// Not where inside counts, which a part of a solid does not have.
+/// False for levels about the inside of a solid, which a part of a solid does not have.
 bool can_be_reduced(const std::string& level);
 /// @throws InputError when errors at that level cannot be reduced
 void require_reducible(const std::string& level);
 
-/// In the first frame in which the detector (its canonical name) errs as it is looked for.
-/// `is_case`: the task is a case of an earlier run, whose bodies are known.
-/// @throws InputError, one sentence, where there is none, or where it needs more than two bodies
+/// Finds the first frame in which the detector (by canonical name) has the wanted error. `is_case`:
+/// the task is a case of an earlier run, which names the bodies.
+/// @throws InputError, one sentence, if there is none, or it needs more than two bodies
 Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
                    const std::vector<ReductionTask>& tasks);
 

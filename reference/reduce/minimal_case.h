@@ -19,7 +19,7 @@ struct MinimalCase {
   std::string place;     ///< the frame or value there
   std::string drawn;     ///< the scene's parameters if it was drawn; or empty
   std::string detector;  ///< canonical name
-  std::string library;   ///< with its version, where the detector is one's; or empty
+  std::string library;   ///< with its version, for a library's detector; or empty
   Finding finding;
   CaseCandidate candidate;
   std::vector<Level> levels;  ///< at which it is judged
@@ -39,7 +39,7 @@ std::string id_from(const std::string& words);
 /// What is exactly true of the case and what the detector answered, one sentence each.
 struct CaseAnswers {
   std::string exact, detector;
-  /// Of the first body and the second, where the wrong answer is about a pair of triangles.
+  /// Triangles of the first and second body, if the wrong answer is about a pair of triangles.
   std::optional<std::pair<std::uint32_t, std::uint32_t>> triangles = {};
 };
 CaseAnswers answers_of(const MinimalCase& minimal, const ProbeVerdict& verdict);

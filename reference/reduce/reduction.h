@@ -15,16 +15,16 @@ namespace contactcheck::reduce {
 
 // Delta debugging: the fewest items that still show something.
 
-/// Numbers of items, ascending; what is asked of a subset. Must answer the same to the same.
+/// Tests a subset, given as ascending indices. Must be deterministic.
 using ShowsSubset = std::function<bool(const std::vector<std::size_t>&)>;
 
-/// A subset of `items` that shows and of which no single item can be left out. The same items and
-/// answers give the same subset. Where `may_go_on` turns false, the best so far.
+/// A subset of `items` that passes and from which no single item can be removed. Deterministic.
+/// Returns the best so far if `may_go_on` turns false.
 /// @pre `items` shows
 std::vector<std::size_t> minimal_subset(std::vector<std::size_t> items, const ShowsSubset& shows,
                                         const std::function<bool()>& may_go_on);
 
-/// Does a candidate still show the defect? Must answer the same to the same candidate.
+/// True if a candidate still shows the defect. Must be deterministic.
 using ShowsCandidate = std::function<bool(const CaseCandidate&)>;
 
 struct Reduction {

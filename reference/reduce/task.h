@@ -1,4 +1,4 @@
-// What `contactcheck reduce` is given: a case file of a run, or a scene with a detector.
+// The input of `contactcheck reduce`: a case file of a run, or a scene with a detector.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace contactcheck::reduce {
 
-/// One frame in which a detector may err, and what of it is to be reduced where that is known.
+/// One frame in which a detector may err, and what to reduce in it, as far as given.
 struct ReductionTask {
   std::string scene;  ///< id
   std::size_t frame = 0;

@@ -1,4 +1,4 @@
-// What was found when a detector answered one frame of two bodies, and which part of it a smaller
+// The judged answer of a detector to one frame of two bodies, and the part of it that a smaller
 // case must still show.
 #pragma once
 

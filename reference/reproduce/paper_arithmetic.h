@@ -1,5 +1,5 @@
-// What follows from the paper's own numbers by arithmetic alone, and where they contradict one
-// another. Nothing here is measured.
+// Arithmetic on the paper's own numbers, and where they contradict each other. Nothing is measured
+// here.
 #pragma once
 
 #include <optional>
@@ -25,9 +25,9 @@ struct PaperFinding {
 /// Every check, in a fixed order. @pre tables as load_paper_tables gives them
 std::vector<PaperFinding> check_paper(const PaperTables& tables);
 
-/// Of the times: ratios, sums against totals, gains. Part of check_paper.
+/// Checks the times: ratios, sums against totals, gains. Part of check_paper.
 void check_times(const PaperTables& tables, std::vector<PaperFinding>& findings);
-/// Of the text against the tables. Part of check_paper.
+/// Checks the text against the tables. Part of check_paper.
 void check_claims(const PaperTables& tables, std::vector<PaperFinding>& findings);
 
 /// `value` as sentences show it: 3 decimals for ratio and ms, 2 for fps, 1 for %, 0 for count.

@@ -20,9 +20,9 @@ std::string paper_markdown(const PaperTables& tables, const std::vector<PaperFin
 nlohmann::ordered_json paper_json(const PaperTables& tables,
                                   const std::vector<PaperFinding>& findings);
 
-/// Of paper_json: the source, how many checks there are and how many contradict a claim; and every
-/// figure, with its finding's sentence as last cell.
-/// @throws nlohmann::json::exception when it is something else
+/// From paper_json: the source, the number of checks and of contradictions; and every figure, with
+/// its finding's sentence in the last cell.
+/// @throws nlohmann::json::exception for another document
 std::string own_numbers(const nlohmann::ordered_json& paper);
 report::TitledTable checks_table(const nlohmann::ordered_json& paper);
 

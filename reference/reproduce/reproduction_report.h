@@ -13,8 +13,8 @@ std::string reproduction_markdown(const nlohmann::ordered_json& reproduction);
 /// One line per scene and reading; plain text.
 std::string reproduction_terminal(const nlohmann::ordered_json& reproduction);
 
-/// Of reproduction.json: what reproduce() makes, with paper_json() as "paper".
-/// @throws nlohmann::json::exception when it is something else, or of another version
+/// The page's part, from the document of reproduce() with paper_json() as "paper".
+/// @throws nlohmann::json::exception for another document or version
 report::PaperPart paper_part(const nlohmann::ordered_json& reproduction);
 
 }  // namespace contactcheck::reproduce

@@ -1,5 +1,4 @@
-// Text that a detector made, fit to stand in a row: libraries print what they like, and JSON takes
-// UTF-8 alone.
+// Makes text from detectors fit for a row: libraries print arbitrary bytes, JSON takes only UTF-8.
 #pragma once
 
 #include <cstddef>

@@ -45,7 +45,7 @@ inline char lower_case(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Of the letters of ASCII; other bytes stay.
+/// Lowers ASCII letters; other bytes stay.
 inline std::string lower_case(std::string text) {
   for (char& c : text) c = lower_case(c);
   return text;

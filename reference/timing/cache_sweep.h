@@ -7,8 +7,8 @@
 
 namespace contactcheck::timing {
 
-/// Twice the largest cache of this machine's first core, by the kernel's word, and at most 64 MiB,
-/// which is also what a machine gets that does not say.
+/// Twice the largest cache of this machine's first core, as the kernel reports it, and at most 64
+/// MiB; 64 MiB if it reports none.
 std::size_t sweep_bytes();
 
 /// Reads a buffer, so that the next call finds little of its data in the caches.

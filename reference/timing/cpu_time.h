@@ -9,20 +9,20 @@
 
 namespace contactcheck::timing {
 
-/// Whether this process has any that it has started and not waited for.
+/// True if this process has children that it has not waited for.
 bool has_children();
 
-/// Times a call by the wall clock, without what the machine has taken away: on one that others use
-/// too, a call of a millisecond may be held up for seven. A process that has not waited for
-/// anything (no thread of it has given up its CPU by itself) and has started no other would have
-/// run all the time; what its CPU time is short of the wall clock has been given to others. Of
-/// calls that wait, for a thread or a pipe, nothing is taken off.
+/// Measures a call by the wall clock, minus the time that the machine gave to others: on a shared
+/// machine a call of a millisecond may be delayed by seven. A process that waited for nothing (no
+/// thread gave up its CPU voluntarily) and started no other would have run all the time, so the
+/// difference between wall clock and CPU time went to others. For calls that wait, for a thread or
+/// a pipe, nothing is subtracted.
 class CallClock {
  public:
   void start();
   /// Nanoseconds since start().
   double stop();
-  /// Nanoseconds that have been taken off, of all calls.
+  /// Nanoseconds subtracted so far, over all calls.
   double taken() const { return taken_; }
 
  private:
@@ -32,12 +32,12 @@ class CallClock {
   long waits_ = 0;
 };
 
-/// Adds up one pass: the CPU time of the process in calls of the detector, and what others than
-/// the calling thread use while it is not called. Nanoseconds.
+/// Accounts one pass: the CPU time of the process in calls of the detector, and the CPU time that
+/// others than the calling thread use between calls. Nanoseconds.
 ///
-/// Reading the clocks takes time too, and a machine that others use may stand still between two of
-/// them. So the calls' CPU time is held against the time between the readings, which is never less
-/// for one thread, and the calling thread's own clock is read on both sides of the process's.
+/// Reading the clocks takes time too, and a shared machine may stop between two of them. So the
+/// calls' CPU time is compared with the time between the readings, which is never less for one
+/// thread, and the calling thread's clock is read before and after that of the process.
 class CpuBook {
  public:
   using Clock = std::chrono::steady_clock;
@@ -57,7 +57,7 @@ class CpuBook {
   /// `still_here` meanwhile.
   void settle(const std::function<void()>& still_here);
 
-  /// The same of readings that are given.
+  /// The same with given readings.
   void before_call(const Reading& now);
   double after_call(const Reading& now);
 

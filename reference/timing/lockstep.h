@@ -1,5 +1,5 @@
-// Whole simulation steps, timed in lockstep: the states of one recorded motion are restored, every
-// detector runs one full step from each of them, and what it did is discarded.
+// Times whole simulation steps in lockstep: the states of one recorded motion are restored, every
+// detector runs one full step from each of them, and the result is discarded.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What is timed when: drawn by seed, the same for the same seed on every machine.
+// The order of timing, drawn by seed: equal on every machine for the same seed.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace contactcheck::timing {
 
-/// The frames of a scene that are timed cold, the same for all detectors: 8, or all where there are
-/// no more; ascending. Where some frames have contact, so has one of these.
+/// The frames of a scene that are timed cold, the same for all detectors: 8, or all if there are
+/// fewer; ascending. If some frames have contact, at least one of them is included.
 std::vector<std::size_t> draw_cold_frames(const std::vector<bool>& contact_frames,
                                           std::uint64_t seed);
 

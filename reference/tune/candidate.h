@@ -14,7 +14,7 @@ struct Choice {
   bool operator==(const Choice&) const = default;
 };
 
-/// Of a frame, or of a step of a simulation.
+/// The cost of a frame, or of a step of a simulation.
 struct Cost {
   double ms = 0.0;
   double low_ms = 0.0, high_ms = 0.0;  ///< its interval (paired_cost.h)

@@ -1,4 +1,4 @@
-// Frames to choose by, and others to confirm the choice on.
+// Frames for choosing, and other frames for confirming the choice.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,14 @@ struct FrameSplit {
   SceneFrames chosen_by, held_out;
 };
 
-/// Of a scripted scene: `frames` moments (0: at most 30) and one less, over the same time, which
-/// share the first and the last alone. Of a recording: every other frame, written to `work`.
+/// For a scripted scene: `frames` moments (0: at most 30) and one less, over the same time, which
+/// share only the first and the last. For a recording: every other frame, written to `work`.
 /// @pre the scene is not simulated
 /// @throws InputError for scenes that cannot be split: families, and those with fewer than 4 frames
 FrameSplit split_frames(const std::filesystem::path& file, std::size_t frames,
                         const std::filesystem::path& work);
 
-/// Of a scene with recorded frames: every other one of them, written to `work`.
+/// For a scene with recorded frames: every other one, written to `work`.
 /// @throws InputError for fewer than 4 frames
 FrameSplit split_recorded(const scene::Scene& scene, const std::filesystem::path& work);
 

@@ -50,12 +50,12 @@ struct Limits {
   bool met_by(const Measurement& m) const;
 };
 
-/// Which of them is cheaper is not known: intervals overlap, those beside the anchor within a
-/// model, where the rest is the same for both, and those of the whole cost across models. A failure
-/// costs nothing that could be compared.
+/// True if it is unknown which is cheaper: the intervals overlap. Within a model the ratios to the
+/// anchor are compared, since the rest is the same for both; across models the whole costs. Always
+/// false for a failure, which has no cost.
 bool as_cheap_within_noise(const Measurement& a, const Measurement& b);
 
-/// No dearer and no more wrong in anything, and better in something. A failure dominates nothing.
+/// No more expensive or wrong in anything, and better in something. A failure dominates nothing.
 bool dominates(const Measurement& a, const Measurement& b);
 
 }  // namespace contactcheck::tune

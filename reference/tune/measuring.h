@@ -43,9 +43,9 @@ struct ModelKey {
   auto operator<=>(const ModelKey&) const = default;
 };
 
-/// A candidate costs its ratio to the anchor in its own model, all runs pooled. The anchor's own
-/// time is known in the scene's own model, from one run; in any other it is that times what all
-/// runs so far say in the middle (median_ratio), for every candidate of the model alike.
+/// A candidate costs its ratio to the anchor in its own model, over all runs. The anchor's time is
+/// measured in the scene's own model, in one run; in any other model it is that time multiplied by
+/// the median of what all runs say (median_ratio), for every candidate of the model alike.
 class CostBook {
  public:
   /// What the anchor takes for a frame in the scene's own model. @pre above 0
@@ -85,14 +85,13 @@ struct MeasuringRequest {
   std::filesystem::path executable;  ///< see SuiteRequest
   results::KnownDefects known_defects;
   suite::SuiteListener listener;
-  /// The detector that costs are taken against; empty: the first that is measured and answers.
+  /// The detector that costs are relative to; empty: the first that is measured and answers.
   std::string anchor;
 };
 
-/// The machine may be faster in one run than in the next, and for a moment busy with something
-/// else. So the first detector that answers stays for all runs as what costs are taken against, and
-/// all that the runs say is kept in one CostBook. What a run could not time costs what
-/// earlier ones say.
+/// The machine may be faster in one run than in the next, or briefly busy. So the first detector
+/// that answers is the anchor of all runs, and one CostBook keeps all their results. What a run
+/// could not time has the cost of earlier runs.
 class Measuring {
  public:
   Measuring(const std::vector<TuneCandidate>& candidates, MeasuringRequest request);

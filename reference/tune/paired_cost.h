@@ -1,4 +1,4 @@
-// What a detector costs beside another one, from times that a busy machine has spoiled some of.
+// The cost of a detector relative to another, from times that a busy machine has partly spoiled.
 //
 // A pair is one frame of one and of the other in passes that ran one after the other (of a step:
 // in repeats). A machine that slows down slows both, so that their quotient stays; one of the two
@@ -22,8 +22,8 @@ struct PairedFrame {
 /// By frame, of one run.
 using PairedRun = std::map<std::size_t, PairedFrame>;
 
-/// Of playbacks, frame by frame: pass p of one with pass p of the other, as far as both have any.
-/// The first frame counts only where there is no other.
+/// Pairs two playbacks, frame by frame: pass p of one with pass p of the other, while both have
+/// one. The first frame counts only if there is no other.
 PairedRun pair_up(const timing::QuestionSamples& own, const timing::QuestionSamples& anchor);
 
 /// How many times the anchor it costs: the mean over frames of the median quotient, weighted by

@@ -51,15 +51,15 @@ using Measure = std::function<std::vector<Measurement>(const std::vector<std::si
 SearchOutcome search(const std::vector<TuneCandidate>& candidates, const Limits& limits,
                      const SearchSettings& settings, const Measure& measure);
 
-/// Index of the cheapest that meets the limits; none does.
+/// Index of the cheapest that meets the limits; nothing if none does.
 std::optional<std::size_t> cheapest(const std::vector<Tried>& tried, const Limits& limits);
 
-/// Indices of the others that meet the limits and cannot be told from it by their cost, the
+/// Indices of the others that meet the limits and whose costs do not differ significantly, the
 /// cheapest first.
 std::vector<std::size_t> as_cheap_as(std::size_t best, const std::vector<Tried>& tried,
                                      const Limits& limits);
 
-/// Of what was tried, what nothing else tried dominates, by cost.
+/// The tried candidates that no other one dominates, by cost.
 std::vector<std::size_t> pareto_front(const std::vector<Tried>& tried);
 
 }  // namespace contactcheck::tune

@@ -70,8 +70,8 @@ struct SimulationRequest {
   suite::RunSettings settings;
 };
 
-/// Simulates the scene once with each deformer. The scene's own is the first. `starts` is told the
-/// deformer whose simulation begins.
+/// Simulates the scene once with each deformer, its own first. Calls `starts` with the deformer
+/// before each simulation.
 /// @throws InputError when the scene's own simulation fails, or has fewer than 4 frames
 std::vector<SimulatedModel> simulate_models(const SimulationRequest& request,
                                             const DetectorCatalog& catalog,

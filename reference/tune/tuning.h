@@ -33,11 +33,11 @@ struct TuningRequest {
   std::filesystem::path executable;
   results::KnownDefects known_defects;
   std::string command;  ///< for the record
-  /// Of detectors from outside, by id: the library's file, or the command.
+  /// For plug-ins, by id: the library's file, or the command.
   std::map<std::string, std::string> libraries, commands;
 };
 
-/// What the search knows at any moment, for a person who waits.
+/// The state of the search, for a person who waits.
 struct TuningProgress {
   std::size_t measured = 0, candidates = 0;
   std::string best;  ///< name of the cheapest that meets the limits; empty: none yet
@@ -55,8 +55,8 @@ struct Tuning {
   /// The cheapest that met the limits, measured again on the held-out frames, until one holds.
   std::vector<Tried> confirmed;
   std::optional<std::size_t> chosen;  ///< index into confirmed; none met the limits there
-  /// Candidates that meet the limits and cannot be told from the chosen one by their cost: on the
-  /// held-out frames, or on the others where they were not measured there.
+  /// Candidates that meet the limits and whose cost does not differ significantly from the chosen
+  /// one's: on the held-out frames, or on the others if not measured there.
   std::vector<std::size_t> as_cheap;
   std::size_t frames = 0, held_out_frames = 0;
   /// What `run` takes: the scene as it was named, or a file in `out`; empty: none chosen.
@@ -69,7 +69,7 @@ struct Tuning {
   bool within_budget(const std::optional<double>& budget_ms) const;
 };
 
-/// What an earlier run chose is gone from `out` before anything is measured.
+/// Removes what an earlier run chose from `out` before anything is measured.
 /// @throws InputError for what cannot be tuned
 Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
             const std::function<void(const TuningProgress&)>& progress);

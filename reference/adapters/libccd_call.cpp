@@ -71,7 +71,7 @@ const Vec3& farthest(CcdPiece points, const ccd_vec3_t& dir) {
 
 void answer(const Operand& operand, const ccd_vec3_t& dir, ccd_vec3_t* out) {
   if (operand.budget->exceeded()) {
-    // Of both pieces together -2 dir, which is behind the origin seen along dir.
+    // For both pieces together: -2 dir, which is behind the origin seen along dir.
     ccdVec3Set(out, -dir.v[0], -dir.v[1], -dir.v[2]);
     return;
   }

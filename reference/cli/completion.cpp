@@ -61,7 +61,7 @@ std::vector<std::string> flags_of(const CommandWords& command) {
   return flags;
 }
 
-// Of all commands: a flag means the same everywhere.
+// Collected over all commands: a flag means the same everywhere.
 std::vector<std::string> flags_that_take(const ProgramWords& program, ValueKind kind) {
   std::vector<std::string> flags;
   for (const CommandWords& command : program.commands)

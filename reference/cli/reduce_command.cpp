@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kProgressEvery = 20;  // candidates
 constexpr std::chrono::seconds kLogEvery{2};
 
-// Of the command line: a case file that named a program to be started would be no mere data.
+// From the command line only: a case file that names a program to start is not mere data.
 OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
   suite::RunSettings settings;
   settings.call_limit = arguments.call_limit;

@@ -27,7 +27,7 @@ TimingVerdict beyond(const Slowness& slowness, const TimingTolerance& tolerance)
 TimingVerdict of_range(const Slowness& slowness, const TimingTolerance& tolerance) {
   if (slowness.ratio.low > results::kRangeFactor) return beyond(slowness, tolerance);
   TimingVerdict out;
-  // Of a frame that is shorter than the floor no excess can reach it.
+  // No excess can reach the floor in a frame that is shorter than it.
   if (slowness.frame_us < tolerance.floor_us) return out;
   if (slowness.ratio.high >= 1.0 / results::kRangeFactor) out.verdict = Verdict::kCannotJudge;
   return out;

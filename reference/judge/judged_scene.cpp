@@ -99,7 +99,7 @@ Frame JudgedScene::frame(std::size_t index) const {
 std::vector<double> separations(const JudgedScene& judged, process::ProgressWriter& progress) {
   const scene::Scene& scene = *judged.scene;
   std::vector<double> out;
-  // Of a drawn scene it says little that its parameters do not, and cost more than all else: exact
+  // Not for drawn scenes: it adds little to their parameters, and costs more than all else: exact
   // distances of up to 190 pairs of bodies in each frame.
   if (scene.family() || scene.pairs() || scene.drawn || scene.bodies.size() < 2) return out;
   oracle::Oracle oracle(scene.bodies);

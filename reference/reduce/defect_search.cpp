@@ -211,7 +211,7 @@ Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
       defect.task.pair)
     defect.finding.general =
         in_general_position(candidate_of(defect.task.snapshot), *defect.task.pair);
-  // Of more than two bodies the others may have had a part in it.
+  // With more than two bodies, the others may have contributed.
   if (!is_case && !shows_of_two(defect.task.snapshot)) throw more_bodies();
   return defect;
 }

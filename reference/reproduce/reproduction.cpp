@@ -46,7 +46,7 @@ Json paper_row(const PaperTable& table, const PaperRow& row) {
           {"total", row.total},  {"sum_of_steps", row.steps()}};
 }
 
-// Of the newest device that has this row: Table 3 before Table 1.
+// From the newest device that has this row: Table 3 before Table 1.
 Json paper_times(const PaperTables& tables, const std::string& scene, const std::string& method) {
   for (const PaperTable* table : {&tables.table_3, &tables.table_1})
     for (const PaperRow& row : table->rows)

@@ -23,9 +23,9 @@ namespace {
 
 // Relative to the smaller body's largest side.
 constexpr double kDepths[] = {0.08, 0.02, 0.005, 0.00125};
-// Of a depth: how closely contact is watched on the path in, and how far to the sides it must hold.
+// Shares of a depth: how closely contact is watched on the path in, how far aside it must hold.
 constexpr double kShareStep = 1.0 / 8.0, kAside = 1.0 / 4.0;
-// Of the smaller body's largest side: the path to the first touch ends in steps of this length.
+// A share of the smaller body's largest side: the steps that end the path to the first touch.
 constexpr double kNearness = 1.0 / 512.0;
 // Steps to the first touch: distances are walked off at once, and what grazes takes short steps.
 constexpr int kMostApproachSteps = 500;

@@ -31,7 +31,7 @@ using text::shown;
 
 constexpr double kTimeStep = 0x1p-5;  // seconds: times of frames are exact
 constexpr const char* kLevels = R"(["body", "containment", "cell", "triangle", "vertex"])";
-// Of the size of the first body: meeting bodies that do not meet yet.
+// In the size of the first body: the gap of meeting bodies that do not meet yet.
 constexpr double kClearGap = 1e-3;
 // What is nested: its size, of that of the body around it, and how that one may deform.
 constexpr double kNestedSize = 0.25, kNestedAmount = 0.15;

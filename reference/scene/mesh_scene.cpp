@@ -132,13 +132,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDocument = "the scene of --mesh";
 constexpr double kLargest = 1e6;  // metres, of a mesh as it is in its file
-// Of the smaller body's largest side: the gap out of contact, how much deeper press goes.
+// Shares of the smaller body's largest side: the gap out of contact, how much deeper press goes.
 constexpr double kGap = 0.35, kDeeper = 0.1;
 constexpr double kStretch = -0.15, kTwist = 30.0;  // at the deepest; degrees over the body
 // Seconds: in contact, at the deepest, in contact, out of contact. (pass: a shorter stay.)
 constexpr double kMeet = 0.8, kDeepest = 1.0, kPart = 1.2, kEnd = 2.0;
 constexpr double kPassMeet = 0.9, kPassPart = 1.1;
-// Of one mesh, at the end, degrees: more than a ring, so that its ends sink into one another.
+// For one mesh, at the end, degrees: more than a ring, so that its ends intersect.
 constexpr double kRing = 400.0, kTurn = 360.0;
 
 std::string stem_of(const fs::path& mesh) {
@@ -213,7 +213,7 @@ std::vector<TriangleMesh> load_meshes(ScenePlan plan, const fs::path& folder) {
   return meshes;
 }
 
-// Of the second body and those after it, each along another direction.
+// The approaches of the second body and those after it, each along another direction.
 std::vector<Approach> find_approaches(const ScenePlan& plan,
                                       const std::vector<TriangleMesh>& meshes) {
   std::vector<AxisDirection> free;

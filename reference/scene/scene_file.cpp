@@ -131,7 +131,7 @@ void parse_body(const text::JsonField& field, const std::filesystem::path& folde
 
 // Poses of two bodies at given separations, all defaults filled in: a frame for each.
 void parse_sweep(const text::JsonField& root, std::size_t wanted_frames, Scene& scene) {
-  // Of the size: deeper, a body may have gone through the other one.
+  // In the scene's size: deeper, a body may have gone through the other one.
   constexpr text::NumberRange kSeparation = {-0.5, false, 10.0, false};
   constexpr std::size_t kMostOrientations = 10'000, kLargestSeed = 1'000'000'000;
   constexpr std::size_t kMostPoses = 100'000;

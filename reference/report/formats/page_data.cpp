@@ -189,7 +189,7 @@ constexpr Measure kMeasures[] = {{"worse", ErrorMeasure::kWorse},
                                  {"missed", ErrorMeasure::kMissed},
                                  {"spurious", ErrorMeasure::kSpurious}};
 
-// Of one choice of scenes and one level; null where nothing can be drawn.
+// One choice of scenes and one level; null if nothing can be drawn.
 Json level_charts(const SpeedErrorCharts& charts, const std::vector<std::string>& detectors,
                   SpeedErrorChoice choice) {
   // Time, error and front of a point differ from chart to chart, its other cells do not.

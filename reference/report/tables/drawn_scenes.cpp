@@ -172,7 +172,7 @@ struct SceneRatio {
 };
 using Ratios = std::vector<SceneRatio>;
 
-/// Of one detector over one reference, in one question.
+/// One detector over one reference, in one question.
 struct Compared {
   std::string detector, reference;
   Question question = Question::kTriangles;

@@ -33,7 +33,7 @@ RunErrors spurious_distances(const Geometry& geometry) {
   return out;
 }
 
-// Of each episode; a mean or a 95 % of a handful would say little.
+// One error per episode; a mean or a 95 % of a handful would say little.
 RunErrors hover_errors(const Geometry& geometry) {
   RunErrors out;
   for (const results::Episode& episode : geometry.episodes)

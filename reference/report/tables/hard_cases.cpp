@@ -67,7 +67,7 @@ struct DetectorSum {
   }
 };
 
-// Of a family about one body, the level that it is judged at; else empty.
+// The level at which a family about one body is judged; else empty.
 std::string self_level_of(const results::Scene& scene) {
   for (const auto& [level, truth] : scene.truth)
     if (is_self(level)) return name_of(level);

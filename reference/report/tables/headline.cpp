@@ -49,7 +49,7 @@ struct Verdict {
   }
 };
 
-// Of a scene that was not judged, no detector was asked.
+// No detector was asked about a scene that was not judged.
 bool was_asked(const Index& index, const Run& run) {
   const results::Scene* scene = index.scene(run.scene);
   return scene == nullptr || scene->unjudged.empty();
@@ -78,7 +78,7 @@ std::vector<Verdict> verdicts_of(const Index& index) {
   return all;
 }
 
-// Of contacts alone: hover, depths and normals have separate sentences.
+// About contacts only: hover, depths and normals have separate sentences.
 std::string title_of(const Results& results, const std::vector<Verdict>& all) {
   std::size_t scenes = 0, cases = 0;
   for (const results::Scene& scene : results.scenes) {

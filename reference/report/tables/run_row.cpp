@@ -42,7 +42,7 @@ std::string names_of(const std::vector<Value>& values) {
 }  // namespace
 
 Column reference_column(const std::string& reference, const std::string& meaning) {
-  // Of the two hierarchies of FCL one says nearly as much as both.
+  // One of FCL's two hierarchies says nearly as much as both.
   return {.title = "vs " + reference,
           .left = false,
           .meaning = meaning,

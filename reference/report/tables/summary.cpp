@@ -118,7 +118,7 @@ TitledTable summary_table(const results::Results& results) {
 
 Blocks summary_blocks(const results::Index& index) { return {summary_table(index.results())}; }
 
-// Of one scene its own table says the same.
+// A single scene has its own table, which says the same.
 std::vector<TerminalPart> summary_in_terminal(const results::Index& index) {
   if (index.results().scenes.size() < 2) return {};
   return {{"all scenes", "sums over scenes; speed-ups: smallest and largest of any scene", "",

@@ -42,7 +42,7 @@ const kOrder =
   "drawn speed-error levels view cost graded times stages summary goals hard defects pairs claims others " +
   "paper scenes detectors machine words";
 
-// Of a run of hard cases alone, these are the answer.
+// For a run of hard cases only, these are the answer.
 const kHardFirst = `hard defects ${kOrder.replace("hard defects ", "")}`;
 
 /** In order; a section of the report that the order does not name stands among the others. */

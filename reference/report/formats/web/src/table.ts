@@ -105,7 +105,7 @@ export function table(columns: Column[], rows: Row[], what: string): HTMLElement
 const kLong = 24; // letters
 const kFailed = new Set(["error", "absent", "refused"]);
 
-// Of a run that did not end well: its status and a message, and nothing else.
+// A run that did not end well: its status and a message, and nothing else.
 const isFailed = (row: string[]): boolean => kFailed.has(row[1]) && row.slice(3).every((t) => !t);
 
 const kVerdicts: Record<string, Cell> = {

@@ -15,10 +15,10 @@ namespace contactcheck::gate {
 /// results do not contain it.
 std::string worst_frame(const Rule& rule, const results::Index& index, const results::Run& row);
 
-/// A shell command that runs this row again: the scene, as the results' own command names it where
-/// it was a file, the detector with its options, the number of frames; of a timing rule with its
-/// reference and as many processes, and with enough for an interval where it could not be judged.
-/// Empty where a detector is transient.
+/// A shell command that runs this row again: the scene (a file as in the results' command), the
+/// detector with its options, the number of frames; for a timing rule also the reference and as
+/// many processes, or enough for an interval if the rule could not be judged. Empty if a detector is
+/// transient.
 std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row,
                           Verdict verdict);
 

@@ -7,9 +7,9 @@
 
 namespace contactcheck::results {
 
-/// "--detector NAME", or how the results' command named a detector from outside: a library with its
-/// options, "--detector ./libmine.so:leaf=8", or a command, "--detector-cmd 'python3 mine.py'".
-/// Empty for a transient detector, which no command can run again.
+/// "--detector NAME"; for a plug-in as in the results' command: a library with its options,
+/// "--detector ./libmine.so:leaf=8", or a command, "--detector-cmd 'python3 mine.py'". Empty for a
+/// transient detector, which no command can run again.
 std::string detector_words(const Results& results, const std::string& detector);
 
 /// The scene for `run`: its id, or the file or the meshes, with motion and size, of the results'

@@ -60,7 +60,7 @@ inline constexpr double kSweepTolerance = 1e-6;
 
 inline constexpr std::size_t kMostFrames = 100'000;  // of a scene file, a sequence or an option
 
-/// How far a lattice that was fitted to a recording is from it.
+/// The error of a lattice that was fitted to a recording.
 struct FitError {
   std::size_t body = 0;
   std::vector<double> rms, max;  ///< per frame: of the distances of all vertices, metres

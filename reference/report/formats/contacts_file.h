@@ -21,8 +21,8 @@ nlohmann::ordered_json read_contacts(const std::string& text, const std::string&
 /// What the numbers of a missed or spurious pair count. @throws InputError for an unknown level
 NamedElements elements_at(const std::string& level, bool missed);
 
-/// Calls with both elements of every listed pair, true ones first.
-/// @throws Json::exception or InputError where a field is missing, of another type or unknown
+/// Calls `visit` with both elements of every listed pair, true pairs first.
+/// @throws Json::exception or InputError if a field is missing, of another type or unknown
 void visit_elements(
     const nlohmann::ordered_json& contacts,
     const std::function<void(std::int64_t body, std::int64_t element, Element kind)>& visit);

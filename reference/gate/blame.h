@@ -17,8 +17,8 @@ std::string worst_frame(const Rule& rule, const results::Index& index, const res
 
 /// A shell command that runs this row again: the scene (a file as in the results' command), the
 /// detector with its options, the number of frames; for a timing rule also the reference and as
-/// many processes, or enough for an interval if the rule could not be judged. Empty if a detector is
-/// transient.
+/// many processes, or enough for an interval if the rule could not be judged. Empty if a detector
+/// is transient.
 std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row,
                           Verdict verdict);
 

@@ -121,7 +121,7 @@ TEST(PageData, SectionsAreThoseOfTheOtherReports) {
   const Json page = data_of(test::sample_results());
   std::vector<std::string> ids;
   for (const Json& section : page.at("sections")) ids.push_back(section.at("id"));
-  EXPECT_THAT(ids, testing::ElementsAre("summary", "claims"));
+  EXPECT_THAT(ids, testing::ElementsAre("summary", "claims", "machine"));
   const Json& summary = page.at("sections").at(0);
   EXPECT_EQ(summary.at("title"), "Summary");
   const Json& table = summary.at("blocks").at(0).at("table");

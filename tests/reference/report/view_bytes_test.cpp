@@ -139,7 +139,10 @@ TEST_F(ViewBytes, HoldTheSceneOnce) {
   EXPECT_EQ(reader.array(scene, scene.at("shapes").at(1).at("triangles")),
             (std::vector<double>{0, 1, 2}));
   EXPECT_EQ(scene.at("truth"), Json::parse(kContacts).at("truth"));
-  EXPECT_EQ(scene.at("detectors"), Json::parse(kContacts).at("detectors"));
+  Json detectors = Json::parse(kContacts).at("detectors");
+  detectors[0]["elements"] = {{"missed", {"triangle", "triangle"}},
+                              {"spurious", {"triangle", "triangle"}}};
+  EXPECT_EQ(scene.at("detectors"), detectors);
 }
 
 TEST_F(ViewBytes, MapToTheDeformedVerticesInSinglePrecision) {

@@ -88,10 +88,11 @@ function sceneHeader(arrays) {
     nodes: arrays.add("f32", nodes),
     truth: [{frame: 1, count: 2, pairs: [0, 0, 1, 0, 0, 0, 1, 1]}],
     detectors: [
-      {detector: "all-right", level: "triangle", frames: []},
+      {detector: "all-right", level: "triangle", elements: kTriangles, frames: []},
       {
         detector: "half-blind",
         level: "triangle",
+        elements: kTriangles,
         frames: [
           {frame: 1, missed: {count: 1, pairs: kMissed.pair}, spurious: {count: 0, pairs: []}},
           {frame: 2, missed: {count: 0, pairs: []}, spurious: {count: 1, pairs: [0, 1, 1, 1]}},
@@ -165,7 +166,6 @@ export function reportOf(template) {
     findings: [],
     run: "`by hand`",
     parts: [],
-    machine: [],
     detectors: ["half-blind"],
     options: ["-"],
     out: "out",
@@ -176,7 +176,6 @@ export function reportOf(template) {
     fastest: [],
     references: [],
     sections: [],
-    pairs: [],
     hard: kHard,
     levels: [{level: "finest", recall: {columns: ["detector"], rows: []}}],
     result_columns: [],
@@ -184,7 +183,7 @@ export function reportOf(template) {
     stages: [],
     times: [],
     graded: [],
-    speed_error: {columns: [], first: 0, charts: []},
+    speed_error: {columns: [], shapes: [], first: 0, charts: []},
     scenes: [
       {
         id: "seeded",

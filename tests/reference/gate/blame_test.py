@@ -65,6 +65,21 @@ def test_rerun_quotes_what_a_shell_would_take_apart(touch, results, old, name, w
         TOUCH_AGAIN + word + " --no-timing")
 
 
+def test_rerun_of_a_timing_rule_on_random_pairs_is_timed(gate, results):
+    # It was the command of a rule on accuracy, which measures no time.
+    timed = results.row("exact")
+    for name in ("exact", "ref"):
+        row = {**results.row("exact", "random-pairs"), "detector": name}
+        if name == "exact":
+            row.update(time_ms=timed["time_ms"], speedup=timed["speedup"],
+                       per_frame={**row["per_frame"], "frame_ms": [1.0] * row["frames"]})
+            results["runs"].remove(results.row("exact", "random-pairs"))
+        results["runs"].append(row)
+    rule = {"measure": "speedup", "question": "triangles", "reference": "ref", "at_least": 9}
+    [check] = gate([{"scenes": ["random-pairs"], "detectors": ["exact"], **rule}], results)
+    assert check.rerun.startswith("contactcheck run --pairs 64 --seed 7 --detector exact --detector ref --processes ")
+
+
 @pytest.mark.parametrize("detector", ["exact", "ref"])
 def test_no_rerun_of_a_transient_detector_or_reference(touch, results, detector):
     # A class in an interpreter that has ended: the command was printed and did nothing.

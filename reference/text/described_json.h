@@ -43,7 +43,7 @@ inline auto elements(BodyPair& pair) { return std::tie(pair.a, pair.b); }
 
 }  // namespace contactcheck
 
-// Up to 64 members: the preprocessor rescans its result as often as EXPAND has it.
+// At most 41 members, as often as EXPAND has the preprocessor rescan; more do not compile.
 #define CONTACTCHECK_FIELDS(io, value, ...) \
   CONTACTCHECK_EXPAND(CONTACTCHECK_FIELD(io, value, __VA_ARGS__))
 #define CONTACTCHECK_FIELD(io, value, name, ...) \

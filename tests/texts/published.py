@@ -288,6 +288,7 @@ FILES = {
     "single-hard": {"detectors": ("rounded", "between")},
     "settings": {"runs": ("truth", *COUNTS, "depth_error", "options", "ms", "passes")},
     "settings-hard": {"detectors": ()},
+    "settings-drawn": {"drawn_sums": (), "drawn": ("Missed and spurious",)},
     "single-lazy-times": {"runs": ("ms", "passes")},
     "single-historic-times": {"runs": ("ms", "passes")},
     "paper-64": {"scenes": ("steps",), "runs": ("memory_bytes",)},

@@ -296,7 +296,8 @@ LIBRARY_DEFAULTS = {("fcl", "refit"): "bottom-up", ("fcl", "split"): "mean",
 
 def settings(files):
     """One row a setting of a detector; what is `ours` is the detector's own default."""
-    timed, hard = files["settings"], files["settings-hard"]
+    timed, hard, drawn = (files[name] for name in ("settings", "settings-hard", "settings-drawn"))
+    in_drawn = {row["detector"] for row in drawn.rows("drawn")}
     ok = {(run["scene"], run["detector"]): run for run in timed.rows("runs") if "status" not in run}
 
     def sums(rows):
@@ -308,13 +309,18 @@ def settings(files):
         ratios = [run["ms"] / own["ms"] for run, own in runs]
         depths = [run["depth_error"] for run, _ in runs if run["depth_error"] is not None]
         hard_rows = [row for row in hard.rows("detectors") if row["detector"] == detector]
+        drawn_sums = detector in in_drawn and [
+            sum(int(drawn_row(drawn, "Missed and spurious", kind, detector=detector)[column])
+                for kind in DRAWN_KINDS) for column in ("missed", "spurious")]
         return [statistics.geometric_mean(ratios), min(ratios), max(ratios),
-                sums([run for run, _ in runs]), sums(hard_rows), max(depths, default=None)]
+                sums([run for run, _ in runs]), drawn_sums, sums(hard_rows),
+                max(depths, default=None)]
 
     def row(name, option, default, value, found):
         mean, low, high, *counts, depth = found
         time = "1" if value.startswith("**") else f"{mean:.2f} ({low:.2f} to {high:.2f})"
-        return [name, option, default, value, time, *map(wrong, counts),
+        return [name, option, default, value, time,
+                *(wrong(count) if count else "-" for count in counts),
                 "-" if depth is None else three_digits(1e3 * depth)]
 
     rows, shown = [], set()
@@ -333,7 +339,7 @@ def settings(files):
                 rows.append(row(f"`{base}`", f"`{option}`", default, f"**{ours}**", cells(base, base)))
             rows.append(row("", "", "", value, cells(detector, base)))
     return table(["detector", "setting", "library's default", "value", "time over ours:",
-                  "wrong:", "wrong, hard:", "depth off by, mm:"], rows)
+                  "wrong:", "wrong, drawn:", "wrong, hard:", "depth off by, mm:"], rows)
 
 
 def scale_ranges(files):
@@ -556,6 +562,7 @@ def figures(files):
         "drawn.seed": lambda: str(drawn["seed"]),
         "drawn.machine": lambda: machine(files["drawn"]),
         "drawn.minutes": lambda: minutes_of(files["drawn"]),
+        "settings-drawn.scenes": lambda: count(files["settings-drawn"].row("drawn_sums")["scenes"]),
         "drawn-times.scenes": lambda: count(drawn_times["scenes"]),
         "drawn-times.with_contact": lambda: count(drawn_times["with_contact"]),
         "drawn-times.faster.fcl": lambda: faster_than("fcl-aabb"),

@@ -21,7 +21,7 @@ import {
 } from "./scene_model";
 import {kOverview, makeStage, type Stage} from "./stage";
 import {Vector3} from "three";
-import type {Kind, ListedPair, Pair, View, ViewState, ViewTarget} from "./types";
+import type {Elements, Kind, ListedPair, Pair, View, ViewState, ViewTarget} from "./types";
 
 export type {ListedPair, View, ViewState, ViewTarget} from "./types";
 
@@ -48,10 +48,8 @@ class SceneViewer implements View {
   private detector = "";
   /** The values of the parameters of families, whose frames are cases. */
   private readonly cases: Map<string, string[]>;
-  /** The command that shrinks a pair, but for its level and kind. */
+  /** The command that shrinks a pair, but for its level and kind; "" for a transient detector. */
   private readonly reduce: (detector: string, recording: string) => string;
-  /** Detectors that no command can run again. */
-  private readonly transient: Set<string>;
   private pairs: ListedPair[] = [];
   private chosen: ListedPair | null = null;
   private started = false;
@@ -63,9 +61,10 @@ class SceneViewer implements View {
   ) {
     const title = (scene: string): string =>
       [...scenes, ...families].find(({id}) => id === scene)?.title ?? scene;
-    this.reduce = (detector, recording) =>
-      `contactcheck reduce ${out}/recordings/${recording} ${reduce[detectors.indexOf(detector)]}`;
-    this.transient = new Set(detectors.filter((_, at) => reduce[at] === ""));
+    this.reduce = (detector, recording) => {
+      const words = reduce[detectors.indexOf(detector)];
+      return words && `contactcheck reduce ${out}/recordings/${recording} ${words}`;
+    };
     this.cases = new Map(families.map(({id, values}) => [id, values]));
     this.panel = new Panel(container.scenes, title, {
       scene: (id) => this.show({scene: id, frame: busiestFrame(container, id)}),
@@ -246,19 +245,19 @@ class SceneViewer implements View {
   }
 
   private makeMarks(origin: number[]): ReturnType<typeof makeMarks>[] {
-    const elements = this.model.detector(this.detector)?.elements;
+    const elements: Record<MarkKind, Elements> = {
+      true: kTrianglePair,
+      missed: kTrianglePair,
+      spurious: kTrianglePair,
+      ...this.model.detector(this.detector)?.elements,
+    };
     const {chosen} = this,
       drawn = new Set<string>();
     const missed = this.model.differences(this.detector, "missed"),
       keys = new Set(missed.map(String));
     const make = (kind: MarkKind, pairs: Pair[]) =>
       makeMarks(
-        pairs.map((pair) =>
-          this.model.geometry(
-            pair,
-            kind === "true" ? kTrianglePair : (elements?.[kind] ?? kTrianglePair),
-          ),
-        ),
+        pairs.map((pair) => this.model.geometry(pair, elements[kind])),
         origin,
         {kind, color: this.colours[kind], selected: false, dimmed: chosen !== null},
         drawn,
@@ -271,7 +270,7 @@ class SceneViewer implements View {
         ? []
         : others("spurious", this.model.differences(this.detector, "spurious"));
     // A missed pair is drawn as that alone. Pairs of other levels are no pairs of triangles.
-    const trianglesMissed = (elements?.missed ?? kTrianglePair)[0] === "triangle";
+    const trianglesMissed = elements.missed[0] === "triangle";
     const truth = this.model.truth().filter((pair) => !trianglesMissed || !keys.has(String(pair)));
     const {shown} = this.panel;
     return [
@@ -312,19 +311,15 @@ class SceneViewer implements View {
     if (this.chosen) {
       const [one, other] = pairWords(this.chosen, (body) => header.bodies[body].name);
       const {kind, level} = this.chosen;
+      const cannotBeReduced = level === "vertex" || level === "containment";
+      const command = !cannotBeReduced && this.reduce(this.detector, `${header.id}.ccr@${frame}`);
       return [
         `${this.detector}, ${place} ${frame}, ${kind}: `,
         h("strong", {class: `view-${kind}`}, one),
         " and ",
         h("strong", {class: "view-second"}, other),
         ".",
-        ...(level === "vertex" || level === "containment" || this.transient.has(this.detector)
-          ? []
-          : [
-              code(
-                `${this.reduce(this.detector, `${header.id}.ccr@${frame}`)} --level ${level} --kind ${kind}`,
-              ),
-            ]),
+        ...(command ? [code(`${command} --level ${level} --kind ${kind}`)] : []),
       ];
     }
     if (header.detectors.length === 0 && header.truth.length === 0)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "core/types/check.h"
 
@@ -36,113 +37,171 @@ int lowest_bit_exponent(double value) {
   return parts.exponent + std::countr_zero(parts.mantissa);
 }
 
-ExactInteger& ExactInteger::operator=(const ExactInteger& other) {
+int highest_bit_exponent(double value) {
+  const Decomposed parts = decompose(value);
+  CONTACTCHECK_DCHECK(parts.mantissa != 0);
+  return parts.exponent + std::bit_width(parts.mantissa) - 1;
+}
+
+template <std::size_t kInline, std::size_t kLargest>
+std::uint64_t* LimbInteger<kInline, kLargest>::resize(std::size_t size) {
+  CONTACTCHECK_INVARIANT(size <= kLargest, "exact integer wider than any predicate needs");
+  heap_.reset(size > kInline ? new std::uint64_t[size] : nullptr);
+  size_ = size;
+  return limbs();
+}
+
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest>& LimbInteger<kInline, kLargest>::operator=(
+    const LimbInteger& other) {
   if (this == &other) return *this;
-  std::copy_n(other.limbs_.begin(), other.size_, limbs_.begin());
-  size_ = other.size_;
+  std::copy_n(other.limbs(), other.size_, resize(other.size_));
   negative_ = other.negative_;
   return *this;
 }
 
-void ExactInteger::push(std::uint64_t limb) {
-  CONTACTCHECK_INVARIANT(size_ < kMaxLimbs, "exact integer wider than any predicate needs");
-  limbs_[size_++] = limb;
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest>& LimbInteger<kInline, kLargest>::operator=(
+    LimbInteger&& other) noexcept {
+  if (this == &other) return *this;
+  heap_ = std::move(other.heap_);
+  size_ = std::exchange(other.size_, 0);
+  negative_ = std::exchange(other.negative_, false);
+  if (!heap_) std::copy_n(other.inline_.begin(), size_, inline_.begin());
+  return *this;
 }
 
-void ExactInteger::strip_leading_zeros() {
-  while (size_ > 0 && limbs_[size_ - 1] == 0) --size_;
+template <std::size_t kInline, std::size_t kLargest>
+void LimbInteger<kInline, kLargest>::strip_leading_zeros() {
+  const std::uint64_t* limb = limbs();
+  while (size_ > 0 && limb[size_ - 1] == 0) --size_;
   if (size_ == 0) negative_ = false;
 }
 
-ExactInteger ExactInteger::from_double(double value, int exponent) {
-  ExactInteger result;
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::from_unsigned(std::uint64_t value) {
+  LimbInteger result;
+  if (value != 0) *result.resize(1) = value;
+  return result;
+}
+
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::from_double(double value,
+                                                                           int exponent) {
+  LimbInteger result;
   auto [mantissa, own_exponent] = decompose(value);
   if (mantissa == 0) return result;
   const int trailing = std::countr_zero(mantissa);
   mantissa >>= trailing;
   const int shift = own_exponent + trailing - exponent;
   CONTACTCHECK_INVARIANT(shift >= 0, "exponent above the lowest bit of the value");
-  for (int i = 0; i < shift / 64; ++i) result.push(0);
+  const auto zeros = static_cast<std::size_t>(shift / 64);
   const Wide shifted = static_cast<Wide>(mantissa) << (shift % 64);
-  result.push(static_cast<std::uint64_t>(shifted));
-  if (shifted >> 64) result.push(static_cast<std::uint64_t>(shifted >> 64));
+  std::uint64_t* limb = result.resize(zeros + 2);
+  std::fill_n(limb, zeros, 0);
+  limb[zeros] = static_cast<std::uint64_t>(shifted);
+  limb[zeros + 1] = static_cast<std::uint64_t>(shifted >> 64);
+  result.strip_leading_zeros();
   result.negative_ = std::bit_cast<std::uint64_t>(value) >> 63;
   return result;
 }
 
-int ExactInteger::compare_magnitudes(const ExactInteger& a, const ExactInteger& b) {
+template <std::size_t kInline, std::size_t kLargest>
+int LimbInteger<kInline, kLargest>::compare_magnitudes(const LimbInteger& a, const LimbInteger& b) {
   if (a.size_ != b.size_) return a.size_ < b.size_ ? -1 : 1;
   for (std::size_t i = a.size_; i-- > 0;)
-    if (a.limbs_[i] != b.limbs_[i]) return a.limbs_[i] < b.limbs_[i] ? -1 : 1;
+    if (a.limbs()[i] != b.limbs()[i]) return a.limbs()[i] < b.limbs()[i] ? -1 : 1;
   return 0;
 }
 
-ExactInteger ExactInteger::add_magnitudes(const ExactInteger& a, const ExactInteger& b) {
-  const ExactInteger& longer = a.size_ >= b.size_ ? a : b;
-  const ExactInteger& shorter = a.size_ >= b.size_ ? b : a;
-  ExactInteger sum;
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::add_magnitudes(
+    const LimbInteger& a, const LimbInteger& b) {
+  const LimbInteger& longer = a.size_ >= b.size_ ? a : b;
+  const LimbInteger& shorter = a.size_ >= b.size_ ? b : a;
+  LimbInteger total;
+  // A carry out of the longest limb needs one more; it is asked for only where it may be needed, so
+  // that the widest sums still fit.
+  const bool may_carry =
+      longer.size_ > 0 &&
+      ~longer.limbs()[longer.size_ - 1] <=
+          (shorter.size_ == longer.size_ ? shorter.limbs()[shorter.size_ - 1] : std::uint64_t{0});
+  std::uint64_t* limb = total.resize(longer.size_ + (may_carry ? 1 : 0));
   Wide carry = 0;
   for (std::size_t i = 0; i < longer.size_; ++i) {
-    carry += longer.limbs_[i];
-    if (i < shorter.size_) carry += shorter.limbs_[i];
-    sum.push(static_cast<std::uint64_t>(carry));
+    carry += longer.limbs()[i];
+    if (i < shorter.size_) carry += shorter.limbs()[i];
+    limb[i] = static_cast<std::uint64_t>(carry);
     carry >>= 64;
   }
-  if (carry) sum.push(static_cast<std::uint64_t>(carry));
-  return sum;
+  if (may_carry) limb[longer.size_] = static_cast<std::uint64_t>(carry);
+  total.strip_leading_zeros();
+  return total;
 }
 
-ExactInteger ExactInteger::subtract_magnitudes(const ExactInteger& larger,
-                                               const ExactInteger& smaller) {
-  ExactInteger difference;
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::subtract_magnitudes(
+    const LimbInteger& larger, const LimbInteger& smaller) {
+  LimbInteger difference;
+  std::uint64_t* limb = difference.resize(larger.size_);
   std::uint64_t borrow = 0;
   for (std::size_t i = 0; i < larger.size_; ++i) {
-    const Wide taken = static_cast<Wide>(i < smaller.size_ ? smaller.limbs_[i] : 0) + borrow;
-    borrow = taken > larger.limbs_[i] ? 1 : 0;
-    difference.push(larger.limbs_[i] - static_cast<std::uint64_t>(taken));
+    const Wide taken = static_cast<Wide>(i < smaller.size_ ? smaller.limbs()[i] : 0) + borrow;
+    borrow = taken > larger.limbs()[i] ? 1 : 0;
+    limb[i] = larger.limbs()[i] - static_cast<std::uint64_t>(taken);
   }
   difference.strip_leading_zeros();
   return difference;
 }
 
-ExactInteger ExactInteger::operator-() const {
-  ExactInteger result = *this;
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::operator-() const {
+  LimbInteger result = *this;
   result.negative_ = size_ > 0 && !negative_;
   return result;
 }
 
-ExactInteger operator+(const ExactInteger& a, const ExactInteger& b) {
-  const bool a_leads = ExactInteger::compare_magnitudes(a, b) >= 0;
-  ExactInteger result;
-  if (a.negative_ == b.negative_) {
-    result = ExactInteger::add_magnitudes(a, b);
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::sum(const LimbInteger& a,
+                                                                   const LimbInteger& b,
+                                                                   bool b_negative) {
+  LimbInteger result;
+  if (a.negative_ == b_negative) {
+    result = add_magnitudes(a, b);
+    result.negative_ = result.size_ > 0 && b_negative;
   } else {
-    result =
-        a_leads ? ExactInteger::subtract_magnitudes(a, b) : ExactInteger::subtract_magnitudes(b, a);
+    const bool a_leads = compare_magnitudes(a, b) >= 0;
+    result = a_leads ? subtract_magnitudes(a, b) : subtract_magnitudes(b, a);
+    result.negative_ = result.size_ > 0 && (a_leads ? a.negative_ : b_negative);
   }
-  result.negative_ = result.size_ > 0 && (a_leads ? a : b).negative_;
   return result;
 }
 
-ExactInteger operator-(const ExactInteger& a, const ExactInteger& b) { return a + (-b); }
-
-ExactInteger operator*(const ExactInteger& a, const ExactInteger& b) {
-  ExactInteger product;
-  if (a.size_ == 0 || b.size_ == 0) return product;
-  for (std::size_t i = 0; i < a.size_ + b.size_; ++i) product.push(0);
+template <std::size_t kInline, std::size_t kLargest>
+LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::product(const LimbInteger& a,
+                                                                       const LimbInteger& b) {
+  LimbInteger result;
+  if (a.size_ == 0 || b.size_ == 0) return result;
+  std::uint64_t* limb = result.resize(a.size_ + b.size_);
+  std::fill_n(limb, b.size_, 0);
+  const std::uint64_t* a_limb = a.limbs();
+  const std::uint64_t* b_limb = b.limbs();
   for (std::size_t i = 0; i < a.size_; ++i) {
     Wide carry = 0;
     for (std::size_t j = 0; j < b.size_; ++j) {
       // (2^64-1)^2 + 2 (2^64-1) = 2^128 - 1: product, old limb and carry always fit.
-      carry += static_cast<Wide>(a.limbs_[i]) * b.limbs_[j] + product.limbs_[i + j];
-      product.limbs_[i + j] = static_cast<std::uint64_t>(carry);
+      carry += static_cast<Wide>(a_limb[i]) * b_limb[j] + limb[i + j];
+      limb[i + j] = static_cast<std::uint64_t>(carry);
       carry >>= 64;
     }
-    product.limbs_[i + b.size_] = static_cast<std::uint64_t>(carry);
+    limb[i + b.size_] = static_cast<std::uint64_t>(carry);
   }
-  product.strip_leading_zeros();
-  product.negative_ = product.size_ > 0 && a.negative_ != b.negative_;
-  return product;
+  result.strip_leading_zeros();
+  result.negative_ = result.size_ > 0 && a.negative_ != b.negative_;
+  return result;
 }
+
+template class LimbInteger<100, 100>;
+template class LimbInteger<24, 3552>;
 
 }  // namespace contactcheck

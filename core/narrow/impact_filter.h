@@ -1,0 +1,24 @@
+// The filter of find_impact(): what floating-point numbers can decide about moving elements,
+// proven.
+#pragma once
+
+#include <cstdint>
+
+#include "core/types/impact.h"
+
+namespace contactcheck {
+
+enum class FilterVerdict : std::uint8_t { apart, contact, undecided };
+
+struct FilteredImpact {
+  FilterVerdict verdict = FilterVerdict::undecided;
+  /// Of `contact`: the first time lies within, and the width is at most kImpactTimeWidth. (Elements
+  /// in contact at t = 0 are always `undecided`.)
+  double earliest = 0, latest = 0;
+};
+
+/// Never wrong; `undecided` where the bounds in impact_filter.cpp do not suffice.
+/// @pre finite coordinates; the processor rounds to nearest and does not flush denormals to zero
+FilteredImpact filter_impact(const ImpactQuery& query);
+
+}  // namespace contactcheck

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/detect/impact_detector.h"
 #include "core/detect/registry.h"
 
 namespace contactcheck::adapters {
@@ -21,5 +22,9 @@ Adapter bullet_soft_adapter();
 Adapter embree_adapter();
 Adapter fcl_adapter();
 Adapter libccd_adapter();
+
+/// Detectors of elementary impacts.
+std::vector<ImpactDetectorInfo> bullet_impact_detectors();
+std::vector<ImpactDetectorInfo> fcl_impact_detectors();
 
 }  // namespace contactcheck::adapters

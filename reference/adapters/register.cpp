@@ -31,6 +31,13 @@ DetectorCatalog standard_catalog() {
   return catalog;
 }
 
+std::vector<ImpactDetectorInfo> standard_impact_detectors() {
+  std::vector<ImpactDetectorInfo> all = core_impact_detectors();
+  for (auto&& detectors : {fcl_impact_detectors(), bullet_impact_detectors()})
+    all.insert(all.end(), detectors.begin(), detectors.end());
+  return all;
+}
+
 std::map<std::string, std::string> library_versions() {
   std::map<std::string, std::string> out;
   for (const Adapter& adapter : adapters()) out[adapter.library] = adapter.version;

@@ -13,9 +13,9 @@ namespace {
 
 // In the order of --help.
 constexpr void (*kSubcommands[])(CommandLine&) = {
-    add_run,    add_check,  add_init,  add_merge,   add_reproduce, add_tune,
-    add_reduce, add_export, add_gate,  add_accept,  add_ab,        add_list,
-    add_report, add_diff,   add_truth, add_defects, add_workers};
+    add_run,  add_check,  add_queries, add_init,  add_merge,   add_reproduce,
+    add_tune, add_reduce, add_export,  add_gate,  add_accept,  add_ab,
+    add_list, add_report, add_diff,    add_truth, add_defects, add_workers};
 
 template <typename Commands>
 void add_command_option(CLI::App& command, Commands& commands) {

@@ -28,6 +28,7 @@ void describe_program(CommandLine& line);
 
 void add_run(CommandLine& line);
 void add_check(CommandLine& line);
+void add_queries(CommandLine& line);
 void add_init(CommandLine& line);
 void add_merge(CommandLine& line);
 void add_reproduce(CommandLine& line);

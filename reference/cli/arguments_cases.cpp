@@ -58,6 +58,16 @@ void add_export(CommandLine& line) {
       ->check(whole_in(1, scene::kMostFrames));
   exported->add_option("--every", arguments->every, "write every Nth frame (default 1)")
       ->check(whole_in(1, scene::kMostFrames));
+  CLI::Option* queries = exported->add_flag(
+      "--queries", arguments->queries, "instead of frames: queries between them, with their truth");
+  queries->excludes("--every");
+  exported
+      ->add_option("--sample", arguments->sample.most, "at most N queries of a kind, drawn by seed")
+      ->check(whole_in(1, std::uint64_t{1} << 32))
+      ->needs(queries);
+  exported->add_option("--seed", arguments->sample.seed, "of the sample (default 1)")
+      ->check(whole_in(0, ~std::uint64_t{0}))
+      ->needs(queries);
   exported
       ->add_option("--out", arguments->out,
                    "folder for surfaces, certificates, check.py (default out/export)")
@@ -65,7 +75,8 @@ void add_export(CommandLine& line) {
   exported->footer(
       "Examples:\n"
       "  contactcheck export bunny-touch && python3 out/export/bunny-touch/check.py\n"
-      "  contactcheck export default --every 10 --out /tmp/truth");
+      "  contactcheck export default --every 10 --out /tmp/truth\n"
+      "  contactcheck export bunny-touch --queries --sample 10000");
   choose(*exported, line, [arguments, &line] { return export_command(*arguments, line.catalog); });
 }
 

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "core/detect/registry.h"
+#include "core/types/impact.h"
+#include "reference/queries/scene_queries.h"
 #include "reference/results/results.h"
 #include "reference/scene/frame_files.h"
 #include "reference/scene/mesh_scene.h"
@@ -42,6 +44,8 @@ struct RunArguments : suite::RunTargets {
 struct ExportArguments {
   std::vector<std::string> targets;  ///< suites, scenes, files; at least one
   std::size_t frames = 0, every = 1;
+  bool queries = false;  ///< elementary queries of the steps instead of frames
+  queries::QuerySample sample;
   std::filesystem::path out = "out/export";
 };
 
@@ -110,8 +114,19 @@ struct CheckArguments {
   std::filesystem::path out = "out";
 };
 
+struct QueriesArguments {
+  std::vector<std::filesystem::path> files;   ///< at least one, but for families
+  bool families = false;                      ///< the hard families of this program instead
+  std::vector<std::filesystem::path> truths;  ///< none, or one a file
+  std::optional<ImpactKind> kind;             ///< none: as names and folders say
+  std::vector<std::string> detectors;         ///< names; empty: all
+  std::filesystem::path out = "out";
+};
+
 /// Which frames have contacts that are not allowed; 1 when one has.
 int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog);
+/// Judges detectors of elementary impacts on query files; 3 when one reports a time that is none.
+int queries_command(const QueriesArguments& arguments);
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets), in closed loop too, and compares it with the paper's
 /// tables.
@@ -125,7 +140,8 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
 /// Prints the exact answers to families of hard cases (to all if none is named); `write` stores
 /// them in fixtures/hard/expected.json.
 int truth_command(const std::vector<std::string>& families, bool write);
-/// Writes a folder per scene into `out`: frames, certificates of their truth, and their checker.
+/// Writes a folder per scene into `out`: frames, certificates of their truth, and their checker; or
+/// the elementary queries of its steps.
 int export_command(const ExportArguments& arguments, const DetectorCatalog& catalog);
 /// fixtures/hard: known-defects.json, readings.json and ranges.json
 std::filesystem::path hard_cases_folder();

@@ -7,19 +7,20 @@
 #include "reference/cli/commands.h"
 #include "reference/judge/scene_export.h"
 #include "reference/process/interrupts.h"
+#include "reference/queries/scene_queries.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/simulate_scene.h"
 #include "reference/scene/suite_file.h"
 #include "reference/scene/sweep_poses.h"
 #include "reference/suite/out_folder.h"
+#include "reference/text/counted.h"
 #include "reference/text/file_text.h"
 
 namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using judge::ExportSummary;
 
 std::vector<fs::path> files_of(const std::vector<std::string>& targets) {
   const fs::path fixtures = scene::fixtures_directory();
@@ -38,7 +39,9 @@ std::vector<fs::path> files_of(const std::vector<std::string>& targets) {
 
 // An earlier export makes place for this one; anything else stays, and nothing is written.
 void require_free(const fs::path& folder) {
-  if (!fs::exists(fs::symlink_status(folder)) || judge::is_export(folder)) return;
+  if (!fs::exists(fs::symlink_status(folder)) || judge::is_export(folder) ||
+      queries::is_query_export(folder))
+    return;
   throw InputError("--out: " + text::in_quotes(folder.string()) +
                    " is there already and is no export: nothing there is replaced");
 }
@@ -55,11 +58,11 @@ void check_scenes(const ExportArguments& arguments, const std::vector<fs::path>&
 }
 
 // Into a scratch folder first: under its name an export is whole, or it is not there.
-judge::ExportSummary export_whole(const scene::Scene& scene, std::size_t every, const fs::path& out,
-                                  const std::function<void()>& before_frame) {
+template <typename Write>
+auto export_whole(const std::string& id, const fs::path& out, const Write& write) {
   const suite::ScratchFolder scratch(out);
-  const fs::path made = scratch.path() / scene.id, target = out / scene.id;
-  const judge::ExportSummary summary = judge::export_scene(scene, every, made, before_frame);
+  const fs::path made = scratch.path() / id, target = out / id;
+  const auto summary = write(made);
   std::error_code error;
   if (fs::exists(target)) fs::rename(target, scratch.path() / "replaced", error);
   if (error)
@@ -74,6 +77,14 @@ void print_summary(const fs::path& folder, const judge::ExportSummary& summary) 
       "contact_hash 0x%016llx\n",
       folder.c_str(), summary.frames, summary.contacts, summary.gaps,
       static_cast<unsigned long long>(summary.contact_hash));
+  std::fflush(stdout);
+}
+
+void print_queries(const fs::path& file, const queries::ExportedQueries& counts) {
+  std::printf("%s: %s", file.c_str(), text::counted(counts.written, "query", "queries").c_str());
+  if (counts.written < counts.found) std::printf(" of %zu", counts.found);
+  std::printf(", %s (%zu at the start)\n", text::counted(counts.contacts, "contact").c_str(),
+              counts.starts_in_contact);
   std::fflush(stdout);
 }
 
@@ -92,10 +103,27 @@ int export_command(const ExportArguments& arguments, const DetectorCatalog& cata
     scene::record_simulation(
         catalog, [&](std::size_t) { look(); }, scene);
     scene::place_sweep([&](std::size_t) { look(); }, scene);
-    print_summary(arguments.out / scene.id,
-                  export_whole(scene, arguments.every, arguments.out, look));
+    const fs::path folder = arguments.out / scene.id;
+    if (arguments.queries) {
+      const auto write = [&](const fs::path& made) {
+        fs::create_directories(made);
+        return queries::export_queries(scene, arguments.sample, made, look);
+      };
+      const queries::QueryExport summary = export_whole(scene.id, arguments.out, write);
+      print_queries(folder / "vertex-face.csv", summary.vertex_face);
+      print_queries(folder / "edge-edge.csv", summary.edge_edge);
+    } else {
+      const auto write = [&](const fs::path& made) {
+        return judge::export_scene(scene, arguments.every, made, look);
+      };
+      print_summary(folder, export_whole(scene.id, arguments.out, write));
+    }
   }
-  std::printf("to check them: python3 %s/SCENE/check.py\n", arguments.out.c_str());
+  if (arguments.queries)
+    std::printf("to judge detectors on them: contactcheck queries %s/SCENE/*.csv\n",
+                arguments.out.c_str());
+  else
+    std::printf("to check them: python3 %s/SCENE/check.py\n", arguments.out.c_str());
   return 0;
 }
 

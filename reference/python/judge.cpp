@@ -10,6 +10,7 @@
 #include "core/types/check.h"
 #include "core/types/shared_corners.h"
 #include "reference/oracle/closed_chain.h"
+#include "reference/oracle/elementary_impact.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/floating_point.h"
 #include "reference/oracle/frame_certificate.h"
@@ -118,6 +119,30 @@ py::tuple self_contacts(const Shape& shape) {
                                                  return std::array{p.a, p.b};
                                                }),
                         column<std::int32_t>(shared, [](std::uint32_t count) { return count; }));
+}
+
+// Four rows of points a query, at t = 0 and at t = 1.
+py::tuple impacts(bool edges, const py::object& start_rows, const py::object& end_rows) {
+  const std::vector<Vec3> start = read_points(start_rows, "start"),
+                          end = read_points(end_rows, "end");
+  CONTACTCHECK_INVARIANT(start.size() == end.size() && start.size() % 4 == 0,
+                         "contactcheck/__init__.py checks the shapes");
+  std::vector<Impact> found(start.size() / 4);
+  {
+    const Released released;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      ImpactQuery query{edges ? ImpactKind::edge_edge : ImpactKind::vertex_triangle, {}, {}};
+      for (std::size_t point = 0; point < 4; ++point) {
+        query.start[point] = start[4 * i + point];
+        query.end[point] = end[4 * i + point];
+      }
+      found[i] = oracle::elementary_impact(query);
+    }
+  }
+  return py::make_tuple(column<bool>(found, [](const Impact& i) { return i.contact; }),
+                        column<bool>(found, [](const Impact& i) { return i.starts_in_contact; }),
+                        column<double>(found, [](const Impact& i) { return i.earliest; }),
+                        column<double>(found, [](const Impact& i) { return i.latest; }));
 }
 
 py::tuple distance(const Shape& a, const Shape& b) {
@@ -273,6 +298,7 @@ void add_judge(py::module_& module) {
       .def("fit", &fit, CleanNumbers());
   module.def("contacts", &contacts, CleanNumbers());
   module.def("self_contacts", &self_contacts, CleanNumbers());
+  module.def("impacts", &impacts, CleanNumbers());
   module.def("distance", &distance, CleanNumbers());
   module.def("point_distances", &point_distances, CleanNumbers());
   module.def("depth", &depth, CleanNumbers());

@@ -23,7 +23,7 @@ PAGES = [
     "fixtures/hard/README.md", "fixtures/policies/README.md", "reference/adapters/README.md",
     "reference/README.md", "reference/cli/README.md",
     "reference/packaging/README.md", "reference/plugin/README.md", "reference/reproduce/README.md",
-    "reference/suite/sweep/README.md", "reference/tune/README.md",
+    "reference/suite/sweep/README.md", "reference/queries/README.md", "reference/tune/README.md",
 ]
 
 PARAGRAPH_WORDS = 80

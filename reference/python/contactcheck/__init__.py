@@ -32,10 +32,11 @@ from ._run import Results, Scene, Verdict, gate, run
 from ._serve import Body, Frame, LatticeArrays
 
 __all__ = [
-    "Body", "Depth", "Detector", "Distance", "FirstContacts", "Frame", "InputError", "Inside",
-    "Lattice", "LatticeArrays", "PointDistances", "RefusedInput", "Results", "Scene", "SelfContacts",
-    "Unavailable", "Verdict", "__version__", "check_mesh", "contacts", "depth", "detectors",
-    "distance", "gate", "inside", "point_distances", "run", "self_contacts",
+    "Body", "Depth", "Detector", "Distance", "FirstContacts", "Frame", "Impact", "InputError",
+    "Inside", "Lattice", "LatticeArrays", "PointDistances", "RefusedInput", "Results", "Scene",
+    "SelfContacts", "Unavailable", "Verdict", "__version__", "check_mesh", "contacts", "depth",
+    "detectors", "distance", "gate", "impact", "inside", "point_distances", "run",
+    "self_contacts",
 ]
 
 for _public in (Body, Frame, InputError, LatticeArrays, RefusedInput, Results, Scene, Unavailable,
@@ -55,6 +56,15 @@ class SelfContacts(NamedTuple):
 
     pairs: np.ndarray  #: (k, 2) int32, triangles, the lower one first, ascending
     shared: np.ndarray  #: (k,) int32, vertices that both name: 0, 1 or 2
+
+
+class Impact(NamedTuple):
+    """What impact() answers, of each query. Times are fractions of the step, 0 without contact."""
+
+    contact: np.ndarray  #: (n,) bool
+    starts: np.ndarray  #: (n,) bool, in contact at t = 0
+    earliest: np.ndarray  #: (n,) float64, earliest <= first time of contact
+    latest: np.ndarray  #: (n,) float64, first time of contact <= latest
 
 
 class Distance(NamedTuple):
@@ -143,6 +153,43 @@ def self_contacts(V: Any, F: Any, weld: bool = False) -> SelfContacts:
     ([[0, 1]], [0])
     """
     return SelfContacts(*_binding.self_contacts(_binding.Shape(V, F, "V", "F", weld)))
+
+
+def impact(kind: str, start: Any, end: Any) -> Impact:
+    """Do moving elements meet between two frames, and when first? Exact.
+
+    `kind`: "vertex-face", the four points of a query being a vertex and the corners of a triangle,
+    or "edge-edge", the ends of two edges. `start` and `end`: (n, 4, 3) coordinates at t = 0 and
+    t = 1; in between each point moves on a straight line at constant speed. Degenerate elements are
+    the segment or point that they are at that time. `latest - earliest` is at most 2^-40.
+
+    >>> start = [[[0.25, 0.25, 1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]]
+    >>> end = [[[0.25, 0.25, -3], [0, 0, 0], [1, 0, 0], [0, 1, 0]]]
+    >>> found = impact("vertex-face", start, end)
+    >>> found.contact.tolist(), (found.earliest <= 0.25).all(), (found.latest >= 0.25).all()
+    ([True], True, True)
+    """
+    if kind not in ("vertex-face", "edge-edge"):
+        raise InputError(f"kind={kind!r} must be 'vertex-face' or 'edge-edge'")
+    rows = []
+    for name, places in (("start", start), ("end", end)):
+        try:
+            points = np.asarray(places)
+        except ValueError:  # rows of different lengths
+            points = np.asarray(None)
+        if points.dtype.kind not in "biuf":
+            raise InputError(f"{name}: an (n, 4, 3) array of numbers wanted, got {type(places).__name__}")
+        if points.ndim != 3 or points.shape[1:] != (4, 3):
+            raise InputError(f"{name} has shape {points.shape}; it must be (n, 4, 3)")
+        if points.dtype.kind == "f" and not np.isfinite(points).all():
+            place = tuple(int(i) for i in np.argwhere(~np.isfinite(points))[0])
+            raise InputError(f"{name}{list(place)} is {points[place]}; it must be a finite number")
+        rows.append(points.reshape(-1, 3))
+    if len(rows[0]) != len(rows[1]):
+        raise InputError(
+            f"start has {len(rows[0]) // 4} queries, end {len(rows[1]) // 4}; they must be as many"
+        )
+    return Impact(*_binding.impacts(kind == "edge-edge", *rows))
 
 
 def distance(Va: Any, Fa: Any, Vb: Any, Fb: Any) -> Distance:

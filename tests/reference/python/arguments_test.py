@@ -83,6 +83,7 @@ def test_positions_of_any_kind(positions):
 
 
 HUGE = np.broadcast_to(np.zeros(3), (2**31, 3))
+MOVING = np.zeros((2, 4, 3))
 BAD = [
     (lambda: contactcheck.contacts(with_value(np.nan), F, V, F), "Va[1, 2] is nan; coordinates must be finite"),
     (lambda: contactcheck.contacts(V, F, with_value(-np.inf, 3, 0), F), "Vb[3, 0] is -inf;"),
@@ -115,6 +116,14 @@ BAD = [
     (lambda: contactcheck.contacts(V, np.broadcast_to(np.zeros(3, np.int32), (2**31, 3)), V, F),
      "Fa has 2147483648 rows; at most 2147483647"),
     (lambda: contactcheck.self_contacts(with_value(np.nan), F), "V[1, 2] is nan"),
+    (lambda: contactcheck.impact("vf", MOVING, MOVING), "kind='vf' must be 'vertex-face' or 'edge-edge'"),
+    (lambda: contactcheck.impact("edge-edge", MOVING[0], MOVING), "start has shape (4, 3); it must be (n, 4, 3)"),
+    (lambda: contactcheck.impact("edge-edge", MOVING, MOVING[:, :, :2]), "end has shape (2, 4, 2)"),
+    (lambda: contactcheck.impact("edge-edge", MOVING, MOVING[:1]), "start has 2 queries, end 1"),
+    (lambda: contactcheck.impact("edge-edge", MOVING + np.nan, MOVING), "start[0, 0, 0] is nan"),
+    (lambda: contactcheck.impact("edge-edge", MOVING, [[1], [1, 2]]), "end: an (n, 4, 3) array of numbers wanted"),
+    (lambda: contactcheck.impact("edge-edge", MOVING, MOVING + 0j), "end: an (n, 4, 3) array of numbers wanted"),
+    (lambda: contactcheck.impact("edge-edge", MOVING.astype(int) + 2**53 + 1, MOVING), "a double would round it"),
     (lambda: contactcheck.distance(V, F, V, [[0, 0, 9]]), "Fb[0, 2] is 9"),
     (lambda: contactcheck.inside([[0, 0]], V, F), "points has shape (1, 2)"),
     (lambda: contactcheck.inside([[0, 0, 0]], V, F), "V, F has no inside: it is open (edge of vertices 0 and 1)"),

@@ -33,6 +33,23 @@ def test_welding_makes_neighbours_of_triangles_with_corners_of_their_own():
     assert len(contactcheck.self_contacts(soup, triangles, weld=True).pairs) == 0
 
 
+def test_impacts_have_a_first_time():
+    """A vertex falls through a triangle, beside it, onto it at the end, and rests on it; two edges pass."""
+    still = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    falls = [((0.25, 0.25, 1), (0.25, 0.25, -3)), ((0.75, 0.75, 1), (0.75, 0.75, -3)),
+             ((0.5, 0.5, 8), (0.5, 0.5, 0)), ((0, 0, 0), (0, 0, 1))]
+    start, end = (np.array([[fall[at], *still] for fall in falls]) for at in (0, 1))
+    found = contactcheck.impact("vertex-face", start, end)
+    assert found.contact.tolist() == [True, False, True, True]
+    assert found.starts.tolist() == [False, False, False, True]
+    for time, earliest, latest in zip((0.25, 0, 1, 0), found.earliest, found.latest):
+        assert earliest <= time <= latest and latest - earliest <= 2**-40
+    across = np.array([[[0, -1, 2], [0, 1, 2], [-1, 0, 0], [1, 0, 0]]], np.float32)
+    found = contactcheck.impact("edge-edge", across, across - [0, 0, 4] * np.array([[[1], [1], [0], [0]]]))
+    assert found.contact.tolist() == [True] and found.earliest[0] <= 0.5 <= found.latest[0]
+    assert len(contactcheck.impact("edge-edge", start[:0], end[:0]).contact) == 0
+
+
 def test_distance_is_that_of_the_command_line(bunnies, bunny_run):
     (scene,) = json.loads((bunny_run / "results.json").read_text())["scenes"]
     assert len(scene["separation"]) == len(bunnies)

@@ -1,0 +1,201 @@
+#include "reference/queries/query_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "reference/text/counted.h"
+#include "reference/text/described_json.h"
+#include "reference/text/lists.h"
+
+namespace contactcheck {
+
+constexpr std::array<ImpactKind, 2> values_of(ImpactKind) {
+  return {ImpactKind::vertex_triangle, ImpactKind::edge_edge};
+}
+
+}  // namespace contactcheck
+
+namespace contactcheck::queries {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string whole(std::uint64_t n) { return std::to_string(n); }
+
+std::string fraction(double t) { return t == 0 ? "0" : fmt::format("{:.1e}", t); }
+
+std::string micros(double us) { return fmt::format("{:.{}f}", us, us < 100 ? 2 : 0); }
+
+/// Columns as wide as their widest cell; the first one to the left, the others to the right.
+std::string table(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i == widths.size()) widths.push_back(0);
+      widths[i] = std::max(widths[i], row[i].size());
+    }
+  std::string out;
+  for (const Row& row : rows) {
+    std::string line = "  ";
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i])
+                     : fmt::format("  {:>{}}", row[i], widths[i]);
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    out += line + "\n";
+  }
+  return out;
+}
+
+Row row_of(const DetectorScore& d) {
+  const bool timed = d.times.timed > 0;
+  Row row = {d.detector,
+             whole(d.score.missed),
+             whole(d.score.spurious),
+             timed ? fraction(d.times.early_max) : "-",
+             timed ? fraction(d.times.late_max) : "-",
+             micros(d.cost.median),
+             micros(d.cost.mean),
+             micros(d.cost.percentile_99),
+             micros(d.cost.worst),
+             whole(d.cost.worst_line)};
+  if (d.refused > 0) row[0] += " (" + whole(d.refused) + " refused)";
+  if (d.errors > 0) row[0] += " (" + text::counted(d.errors, "error") + ")";
+  return row;
+}
+
+/// "12 missed, 3 spurious, early 0.1"; "ok" without errors. Times count from a millionth of the
+/// step.
+std::string errors_of(const DetectorScore& d) {
+  std::vector<std::string> words;
+  if (d.score.missed > 0) words.push_back(whole(d.score.missed) + " missed");
+  if (d.score.spurious > 0) words.push_back(whole(d.score.spurious) + " spurious");
+  if (d.times.early_max > 1e-6) words.push_back("early " + fraction(d.times.early_max));
+  if (d.times.late_max > 1e-6) words.push_back("late " + fraction(d.times.late_max));
+  if (d.errors > 0) words.push_back(text::counted(d.errors, "error"));
+  if (d.refused > 0) words.push_back(whole(d.refused) + " refused");
+  return words.empty() ? "ok" : text::joined(words);
+}
+
+std::string decade_text(const std::optional<int>& decade) {
+  return decade ? fmt::format("1e{} to 1e{}", *decade, *decade + 1) : "points";
+}
+
+/// Missed and spurious by edge length, of detectors that have any; empty when none has.
+std::string by_length(const FileScore& file) {
+  std::vector<const DetectorScore*> wrong;
+  for (const DetectorScore& d : file.detectors)
+    if (d.score.missed + d.score.spurious > 0) wrong.push_back(&d);
+  if (wrong.empty()) return "";
+  std::vector<Row> rows = {{"longest edge, m", "contacts"}};
+  for (const DetectorScore* d : wrong) {
+    rows[0].push_back(d->detector + " missed");
+    rows[0].push_back("spurious");
+  }
+  for (const DecadeScore& decade : wrong.front()->decades) {
+    Row row = {decade_text(decade.decade), whole(decade.score.truth)};
+    for (const DetectorScore* d : wrong) {
+      const auto same = std::find_if(d->decades.begin(), d->decades.end(), [&](const auto& other) {
+        return other.decade == decade.decade;
+      });
+      const bool asked = same != d->decades.end();
+      row.push_back(asked ? whole(same->score.missed) : "-");
+      row.push_back(asked ? whole(same->score.spurious) : "-");
+    }
+    rows.push_back(std::move(row));
+  }
+  return table(rows);
+}
+
+}  // namespace
+
+std::string text_of(const FileScore& score) {
+  std::string out = fmt::format("{}: {}, {}, {}", score.name, name_of(score.kind),
+                                text::counted(score.queries, "query", "queries"),
+                                text::counted(score.contacts, "contact"));
+  if (score.starts_in_contact > 0)
+    out += fmt::format(" ({} at the start)", score.starts_in_contact);
+  out += "\n";
+  if (score.file_truths > 0) {
+    out += score.file_wrong == 0
+               ? fmt::format("  the file's own truth: all {} right\n", score.file_truths)
+               : fmt::format(
+                     "  the file's own truth: {} of {} wrong, first at line {}\n", score.file_wrong,
+                     score.file_truths,
+                     text::joined(score.wrong_lines, [](std::size_t line) { return whole(line); }));
+  }
+  if (score.not_doubles > 0)
+    out += fmt::format("  {} with coordinates that are no doubles: judged, and no detector asked\n",
+                       text::counted(score.not_doubles, "query", "queries"));
+  std::vector<Row> rows = {{"detector", "missed", "spurious", "early", "late", "us median", "mean",
+                            "99 %", "worst", "at line"}};
+  for (const DetectorScore& d : score.detectors) {
+    rows.push_back(row_of(d));
+    if (d.score_fed)
+      rows.push_back(
+          {"  of what it was fed", whole(d.score_fed->missed), whole(d.score_fed->spurious)});
+  }
+  const QueryCost& oracle = score.oracle;
+  rows.push_back({"(oracle)", "", "", "", "", micros(oracle.median), micros(oracle.mean),
+                  micros(oracle.percentile_99), micros(oracle.worst), whole(oracle.worst_line)});
+  out += table(rows);
+  const std::string lengths = by_length(score);
+  if (!lengths.empty()) out += '\n' + lengths;
+  return out;
+}
+
+std::string text_of(const QueryFamily& family, const std::vector<FileScore>& scores) {
+  std::vector<Row> rows = {{family.parameter, "queries", "contacts"}};
+  for (const DetectorScore& d : scores.front().detectors) rows[0].push_back(d.detector);
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const FileScore& score = scores[i];
+    Row row = {fmt::format("{}", family.values[i]), whole(score.queries), whole(score.contacts)};
+    for (const DetectorScore& d : score.detectors) row.push_back(errors_of(d));
+    rows.push_back(std::move(row));
+  }
+  return fmt::format("{}: {}\n", family.id, family.title) + table(rows);
+}
+
+template <typename Io>
+void fields(Io& io, ImpactScore& s) {
+  CONTACTCHECK_FIELDS(io, s, truth, reported, hit, missed, spurious);
+  CONTACTCHECK_FIELDS(io.unless_empty, s, first_missed, first_spurious);
+}
+template <typename Io>
+void fields(Io& io, TimeErrors& t) {
+  CONTACTCHECK_FIELDS(io, t, timed, before, after, early_median, early_99, early_max, late_median,
+                      late_99, late_max);
+}
+template <typename Io>
+void fields(Io& io, QueryCost& c) {
+  CONTACTCHECK_FIELDS(io, c, median, mean, percentile_99, worst, worst_line);
+}
+template <typename Io>
+void fields(Io& io, DecadeScore& d) {
+  CONTACTCHECK_FIELDS(io, d, decade, score, early_max, late_max);
+}
+template <typename Io>
+void fields(Io& io, DetectorScore& d) {
+  CONTACTCHECK_FIELDS(io, d, detector, precision, queries, refused, score);
+  CONTACTCHECK_FIELDS(io.unless_empty, d, score_fed);
+  io("time_of_contact", d.times);
+  io("microseconds", d.cost);
+  CONTACTCHECK_FIELDS(io, d, errors);
+  CONTACTCHECK_FIELDS(io.unless_empty, d, first_error, decades);
+}
+template <typename Io>
+void fields(Io& io, FileScore& f) {
+  CONTACTCHECK_FIELDS(io, f, name, kind, queries, contacts, starts_in_contact, not_doubles,
+                      file_truths, file_wrong);
+  CONTACTCHECK_FIELDS(io.unless_empty, f, wrong_lines);
+  io("oracle_microseconds", f.oracle);
+  CONTACTCHECK_FIELDS(io, f, detectors);
+}
+
+std::string json_of(const std::vector<FileScore>& scores) {
+  text::Json json = {{"schema", kQueriesSchema}, {"files", text::described(scores)}};
+  return json.dump(1) + "\n";
+}
+
+}  // namespace contactcheck::queries

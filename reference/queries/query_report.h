@@ -1,0 +1,23 @@
+// What judging queries found, for a terminal and as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/queries/query_families.h"
+#include "reference/queries/query_judge.h"
+
+namespace contactcheck::queries {
+
+inline constexpr const char* kQueriesSchema = "contactcheck-queries/1";
+
+/// What the file says, its own truth, and a table with a row a detector.
+std::string text_of(const FileScore& score);
+
+/// A table with a row a value: what each detector does wrong there. @pre as many scores as values
+std::string text_of(const QueryFamily& family, const std::vector<FileScore>& scores);
+
+/// The document of queries.json.
+std::string json_of(const std::vector<FileScore>& scores);
+
+}  // namespace contactcheck::queries

@@ -1,22 +1,18 @@
 // Bullet's continuous test of a vertex and a face, as its deformable bodies call it.
 //
-//   bullet-bernstein  bernsteinCCD(): a cull by the coefficients of the coplanarity cubic, a search
-//   for
-//                     a separating plane among 13 directions, and the cubic's roots with a
-//                     proximity test at each. Vertex-face alone, single precision, no time of
-//                     contact.
+//   bullet-bernstein  bernsteinCCD(): a cull by the coefficients of the coplanarity cubic, then 13
+//                     directions that may separate, then the cubic's roots with a proximity test
+//                     at each. Vertex-face alone, single precision, no time of contact.
 //
 // It is given the place at t = 0 and the difference to that at t = 1 as a velocity over a step of
 // 1, in floats: what it answers is that query. The tolerance is the one that Bullet passes,
 // SAFE_EPSILON.
 //
 // Seen in Bullet 3.24 (Debian 12, single precision), November 2026:
-// - bernsteinVFTest() returns true after its first cull: the inside test behind it is never
-// reached.
+// - bernsteinVFTest() returns true after its first cull; the inside test behind it is never run.
 // - hasSeparatingPlane() asks whether all corners are on another side of the vertex than its
-// motion,
-//   and takes no motion along a direction for a side of its own: a vertex that does not move along
-//   one of the 13 directions is separated.
+//   motion, and takes no motion along a direction for a side of its own: a vertex that does not
+//   move along one of the 13 directions is separated.
 // - Roots at t <= 0 are passed over: contact at the start of a step is not found.
 #include <BulletSoftBody/btSoftBodyInternals.h>
 

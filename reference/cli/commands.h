@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/detect/registry.h"
-#include "core/types/impact.h"
 #include "reference/queries/scene_queries.h"
 #include "reference/results/results.h"
 #include "reference/scene/frame_files.h"
@@ -118,8 +117,8 @@ struct QueriesArguments {
   std::vector<std::filesystem::path> files;   ///< at least one, but for families
   bool families = false;                      ///< the hard families of this program instead
   std::vector<std::filesystem::path> truths;  ///< none, or one a file
-  std::optional<ImpactKind> kind;             ///< none: as names and folders say
-  std::vector<std::string> detectors;         ///< names; empty: all
+  std::string kind;  ///< "vertex-face" or "edge-edge"; empty: as names and folders say
+  std::vector<std::string> detectors;  ///< names; empty: all
   std::filesystem::path out = "out";
 };
 

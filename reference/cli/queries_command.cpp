@@ -1,10 +1,15 @@
-#include <algorithm>
-#include <cstdio>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
+#include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
-#include "reference/cli/report_folder.h"
 #include "reference/process/exit_codes.h"
 #include "reference/queries/query_judge.h"
 #include "reference/queries/query_report.h"
@@ -35,7 +40,10 @@ std::vector<queries::QueryTargets> targets_of(const QueriesArguments& arguments)
   for (std::size_t i = 0; i < arguments.files.size(); ++i) {
     queries::QueryTargets target;
     target.file = arguments.files[i];
-    const auto kind = arguments.kind ? arguments.kind : queries::kind_of_file(target.file);
+    std::optional<ImpactKind> kind = queries::kind_of_file(target.file);
+    if (!arguments.kind.empty())
+      kind = arguments.kind == name_of(ImpactKind::edge_edge) ? ImpactKind::edge_edge
+                                                              : ImpactKind::vertex_triangle;
     if (!kind)
       throw InputError(
           target.file.string() +
@@ -48,10 +56,32 @@ std::vector<queries::QueryTargets> targets_of(const QueriesArguments& arguments)
   return targets;
 }
 
+/// Where `out` will be made there is a folder that takes it: what is judged is not lost in the end.
+void check_place(const std::filesystem::path& out) {
+  std::filesystem::path folder = std::filesystem::absolute(out);
+  std::error_code ignored;
+  while (!std::filesystem::exists(folder, ignored) && folder.has_relative_path())
+    folder = folder.parent_path();
+  if (!std::filesystem::is_directory(folder))
+    throw InputError("--out " + out.string() + ": " + std::strerror(ENOTDIR));
+  if (access(folder.c_str(), W_OK) != 0)
+    throw InputError("--out " + out.string() + ": cannot be written");
+}
+
+/// All files can be opened, before the first is judged.
+void check_files(const std::vector<queries::QueryTargets>& targets) {
+  for (const queries::QueryTargets& target : targets) {
+    queries::QueryReader(target.file, target.kind);
+    if (target.truth) queries::read_truth(*target.truth);
+  }
+}
+
 std::vector<queries::FileScore> judge_files(const QueriesArguments& arguments,
                                             const std::vector<ImpactDetectorInfo>& detectors) {
   std::vector<queries::FileScore> scores;
-  for (const queries::QueryTargets& target : targets_of(arguments)) {
+  const std::vector<queries::QueryTargets> targets = targets_of(arguments);
+  check_files(targets);
+  for (const queries::QueryTargets& target : targets) {
     scores.push_back(queries::judge_queries(target, detectors));
     std::printf("%s%s", scores.size() > 1 ? "\n" : "", queries::text_of(scores.back()).c_str());
     std::fflush(stdout);
@@ -88,13 +118,15 @@ int queries_command(const QueriesArguments& arguments) {
   if (arguments.families != arguments.files.empty())
     throw InputError("queries judges files, or with --families its own hard families: one of both");
   const std::vector<ImpactDetectorInfo> detectors = chosen_detectors(arguments.detectors);
+  check_place(arguments.out);
   const std::vector<queries::FileScore> scores =
       arguments.families ? judge_families(detectors) : judge_files(arguments, detectors);
   const bool errors = std::any_of(scores.begin(), scores.end(), [](const auto& score) {
     return std::any_of(score.detectors.begin(), score.detectors.end(),
                        [](const auto& detector) { return detector.errors > 0; });
   });
-  write_report(arguments.out, {{"queries.json", queries::json_of(scores)}});
+  check_out(arguments.out);
+  write_file_atomically(arguments.out / "queries.json", queries::json_of(scores));
   std::printf("\n%s\n", (arguments.out / "queries.json").c_str());
   return errors ? process::kExitUnlistedError : 0;
 }

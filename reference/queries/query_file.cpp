@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/types/check.h"
+#include "core/types/input_file.h"
 #include "reference/text/file_text.h"
 #include "reference/text/words.h"
 
@@ -18,8 +19,11 @@ namespace {
 /// A line longer than this is no line of numbers.
 constexpr std::size_t kLongestLine = 1 << 16;
 
-bool ends_with(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+/// "vf", "326vf", "data_vf", but not "coffee" of "ee".
+bool ends_with_word(const std::string& text, std::string_view end) {
+  if (!text.ends_with(end)) return false;
+  const std::size_t before = text.size() - end.size();
+  return before == 0 || text[before - 1] < 'a' || text[before - 1] > 'z';
 }
 
 bool all_digits(std::string_view text) {
@@ -57,8 +61,8 @@ std::optional<double> exact_double(const mpq_class& value) {
 
 std::optional<ImpactKind> kind_of_file(const std::filesystem::path& file) {
   const std::string stem = text::lower_case(file.stem().string());
-  if (ends_with(stem, "vf")) return ImpactKind::vertex_triangle;
-  if (ends_with(stem, "ee")) return ImpactKind::edge_edge;
+  if (ends_with_word(stem, "vf")) return ImpactKind::vertex_triangle;
+  if (ends_with_word(stem, "ee")) return ImpactKind::edge_edge;
   std::optional<ImpactKind> kind;
   for (const auto& part : std::filesystem::absolute(file)) {
     const std::string name = text::lower_case(part.stem().string());
@@ -69,34 +73,45 @@ std::optional<ImpactKind> kind_of_file(const std::filesystem::path& file) {
 }
 
 QueryReader::QueryReader(std::filesystem::path file, ImpactKind kind)
-    : file_(std::move(file)), in_(file_, std::ios::binary), kind_(kind) {
-  if (!std::filesystem::is_regular_file(file_) || !in_)
-    throw InputError(file_.string() + ": cannot read this query file");
-}
+    : file_(std::move(file)),
+      in_(open_input_file(file_, "query file " + text::in_quotes(file_.string()))),
+      kind_(kind),
+      text_(kLongestLine + 1) {}
 
 void QueryReader::fail(const std::string& what) const {
   throw InputError(file_.string() + ", line " + std::to_string(line_) + ": " + what);
+}
+
+bool QueryReader::next_line() {
+  in_.getline(text_.data(), static_cast<std::streamsize>(text_.size()));
+  const auto length = static_cast<std::size_t>(in_.gcount());
+  if (in_.bad()) fail("reading failed");
+  if (in_.eof() && length == 0) return false;
+  ++line_;
+  if (in_.fail()) fail("a line of more than 65536 bytes");
+  // The count has the line's end, which a last line may lack.
+  line_text_ = std::string_view(text_.data(), in_.eof() ? length : length - 1);
+  return true;
 }
 
 bool QueryReader::next(FileQuery& query) {
   query.query.kind = kind_;
   query.in_doubles = true;
   query.truth.reset();
-  query.line = line_ + 1;
   std::array<std::array<std::pair<mpz_class, mpz_class>, 3>, 8> fractions;
   std::array<std::array<std::optional<double>, 3>, 8> values;
   for (std::size_t row = 0; row < 8; ++row) {
-    if (!std::getline(in_, text_)) {
-      if (in_.bad()) fail("reading failed");
-      if (row == 0 && line_ == 0) throw InputError(file_.string() + ": the file is empty");
+    bool read = next_line();
+    while (read && row == 0 && trimmed(line_text_).empty()) read = next_line();
+    if (!read) {
+      if (row == 0 && columns_ == 0) throw InputError(file_.string() + ": the file is empty");
       if (row == 0) return false;
       fail("a query has eight lines; the last one has " + std::to_string(row));
     }
-    ++line_;
-    if (text_.size() > kLongestLine) fail("a line of more than 65536 bytes");
+    if (row == 0) query.line = line_;
     std::array<std::string_view, 7> cells;
     std::size_t count = 0;
-    for (std::string_view rest = text_;; ++count) {
+    for (std::string_view rest = line_text_;; ++count) {
       const std::size_t comma = rest.find(',');
       if (count == cells.size()) fail("more than seven columns");
       cells[count] = trimmed(rest.substr(0, comma));
@@ -107,8 +122,7 @@ bool QueryReader::next(FileQuery& query) {
     if (count < 6)
       fail(
           "six or seven columns are needed (numerator and denominator of x, y and z, and the "
-          "truth), "
-          "not " +
+          "truth), not " +
           std::to_string(count));
     if (columns_ == 0) columns_ = count;
     if (count != columns_)
@@ -121,8 +135,8 @@ bool QueryReader::next(FileQuery& query) {
       for (const std::string_view cell : {numerator, denominator})
         if (!all_digits(cell)) fail(text::in_quotes(std::string(cell), 40) + " is no whole number");
       auto& [top, bottom] = fractions[row][axis];
-      top = std::string(numerator);
-      bottom = std::string(denominator);
+      top.set_str(std::string(numerator), 10);  // 0 would be octal
+      bottom.set_str(std::string(denominator), 10);
       if (bottom == 0) fail("a denominator is zero");
       mpq_class value(top, bottom);
       value.canonicalize();

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types/impact.h"
@@ -43,11 +44,14 @@ class QueryReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const;
+  /// False at the end of the file.
+  bool next_line();
 
   std::filesystem::path file_;
   std::ifstream in_;
   ImpactKind kind_;
-  std::string text_;
+  std::vector<char> text_;      ///< room for the longest line
+  std::string_view line_text_;  ///< the last line, in it
   std::size_t line_ = 0;
   std::size_t columns_ = 0;  ///< of the file; 0 before its first line
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/types/check.h"
+#include "reference/text/counted.h"
 
 namespace contactcheck::queries {
 namespace {
@@ -59,8 +60,9 @@ class CostMeter {
  public:
   explicit CostMeter(double clock) : clock_(clock) {}
   void add(Clock::duration took, std::size_t line) {
-    const double micros =
-        std::max(0.0, std::chrono::duration<double, std::micro>(took).count() - clock_);
+    // Rounded as the others are, so that none is above the worst.
+    const double micros = static_cast<float>(
+        std::max(0.0, std::chrono::duration<double, std::micro>(took).count() - clock_));
     values_.add(micros);
     sum_ += micros;
     if (micros > worst_) {
@@ -96,6 +98,8 @@ std::optional<int> decade_of(const ImpactQuery& query) {
                                          (p[3] - p[1]).stableNorm()})
                              : std::max((p[0] - p[1]).stableNorm(), (p[2] - p[3]).stableNorm());
   if (!(longest > 0)) return std::nullopt;
+  // Beyond the largest double, and below 2 sqrt(3) times that.
+  if (!std::isfinite(longest)) return 308;
   return static_cast<int>(std::floor(std::log10(longest)));
 }
 
@@ -192,6 +196,7 @@ FileScore judge_queries(const std::string& name, ImpactKind kind, const NextQuer
       asked.emplace_back(info, clock);
   CostMeter oracle_cost(clock);
   std::vector<Judged> block;
+  std::map<std::optional<int>, DecadeTruth> decades;
   for (bool more = true; more;) {
     block.clear();
     while (block.size() < kBlock) {
@@ -207,6 +212,11 @@ FileScore judge_queries(const std::string& name, ImpactKind kind, const NextQuer
       result.contacts += judged.truth.contact ? 1 : 0;
       result.starts_in_contact += judged.truth.starts_in_contact ? 1 : 0;
       result.not_doubles += query.in_doubles ? 0 : 1;
+      if (query.in_doubles) {
+        DecadeTruth& decade = decades[decade_of(query.query)];
+        ++decade.queries;
+        decade.contacts += judged.truth.contact ? 1 : 0;
+      }
       if (query.truth) {
         ++result.file_truths;
         if (*query.truth != judged.truth.contact) {
@@ -219,6 +229,10 @@ FileScore judge_queries(const std::string& name, ImpactKind kind, const NextQuer
     for (Asked& detector : asked) detector.ask(block);
   }
   result.oracle = oracle_cost.cost();
+  for (auto& [decade, truth] : decades) {
+    truth.decade = decade;
+    result.decades.push_back(truth);
+  }
   for (Asked& detector : asked) result.detectors.push_back(detector.finish());
   return result;
 }
@@ -230,8 +244,8 @@ FileScore judge_queries(const QueryTargets& targets,
   if (targets.truth) truths = read_truth(*targets.truth);
   std::size_t read = 0;
   const auto fail = [&](const std::string& how_many) {
-    throw InputError(targets.truth->string() + ": " + std::to_string(truths.size()) +
-                     " truths, and " + targets.file.string() + " has " + how_many);
+    throw InputError(targets.truth->string() + ": " + text::counted(truths.size(), "truth") +
+                     ", and " + targets.file.string() + " has " + how_many);
   };
   const auto next = [&](FileQuery& query) {
     if (!reader.next(query)) return false;
@@ -243,7 +257,7 @@ FileScore judge_queries(const QueryTargets& targets,
     return true;
   };
   FileScore result = judge_queries(targets.file.string(), targets.kind, next, detectors);
-  if (targets.truth && truths.size() != read) fail(std::to_string(read) + " queries");
+  if (targets.truth && truths.size() != read) fail(text::counted(read, "query", "queries"));
   return result;
 }
 

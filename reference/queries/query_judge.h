@@ -43,6 +43,12 @@ struct DecadeScore {
   double early_max = 0, late_max = 0;
 };
 
+/// The queries of a decade.
+struct DecadeTruth {
+  std::optional<int> decade;
+  std::uint64_t queries = 0, contacts = 0;
+};
+
 /// One detector on one file.
 struct DetectorScore {
   std::string detector;
@@ -67,6 +73,7 @@ struct FileScore {
   std::uint64_t queries = 0, contacts = 0, starts_in_contact = 0, not_doubles = 0;
   std::uint64_t file_truths = 0, file_wrong = 0;  ///< queries with a truth in a file; of them wrong
   std::vector<std::size_t> wrong_lines;           ///< the first few
+  std::vector<DecadeTruth> decades;               ///< ascending; those that occur
   QueryCost oracle;
   std::vector<DetectorScore> detectors;
 };

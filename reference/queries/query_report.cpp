@@ -50,6 +50,11 @@ std::string table(const std::vector<Row>& rows) {
 
 Row row_of(const DetectorScore& d) {
   const bool timed = d.times.timed > 0;
+  if (d.refused == d.queries) {
+    Row row(10, "-");
+    row[0] = d.detector + " (all refused)";
+    return row;
+  }
   Row row = {d.detector,
              whole(d.score.missed),
              whole(d.score.spurious),
@@ -79,7 +84,7 @@ std::string errors_of(const DetectorScore& d) {
 }
 
 std::string decade_text(const std::optional<int>& decade) {
-  return decade ? fmt::format("1e{} to 1e{}", *decade, *decade + 1) : "points";
+  return decade ? fmt::format("1e{} to 1e{}", *decade, *decade + 1) : "0 (points)";
 }
 
 /// Missed and spurious by edge length, of detectors that have any; empty when none has.
@@ -88,24 +93,35 @@ std::string by_length(const FileScore& file) {
   for (const DetectorScore& d : file.detectors)
     if (d.score.missed + d.score.spurious > 0) wrong.push_back(&d);
   if (wrong.empty()) return "";
-  std::vector<Row> rows = {{"longest edge, m", "contacts"}};
-  for (const DetectorScore* d : wrong) {
-    rows[0].push_back(d->detector + " missed");
-    rows[0].push_back("spurious");
-  }
-  for (const DecadeScore& decade : wrong.front()->decades) {
-    Row row = {decade_text(decade.decade), whole(decade.score.truth)};
+  std::vector<Row> rows = {{"missed / spurious by longest edge, m", "contacts"}};
+  for (const DetectorScore* d : wrong) rows[0].push_back(d->detector);
+  for (const DecadeTruth& decade : file.decades) {
+    Row row = {decade_text(decade.decade), whole(decade.contacts)};
     for (const DetectorScore* d : wrong) {
       const auto same = std::find_if(d->decades.begin(), d->decades.end(), [&](const auto& other) {
         return other.decade == decade.decade;
       });
-      const bool asked = same != d->decades.end();
-      row.push_back(asked ? whole(same->score.missed) : "-");
-      row.push_back(asked ? whole(same->score.spurious) : "-");
+      row.push_back(same == d->decades.end()
+                        ? "-"
+                        : fmt::format("{} / {}", same->score.missed, same->score.spurious));
     }
     rows.push_back(std::move(row));
   }
   return table(rows);
+}
+
+/// A line for each detector that errs: where it does first.
+std::string first_wrong(const FileScore& file) {
+  std::string out;
+  for (const DetectorScore& d : file.detectors) {
+    std::vector<std::string> words;
+    if (d.score.first_missed) words.push_back("missed at line " + whole(*d.score.first_missed));
+    if (d.score.first_spurious)
+      words.push_back("spurious at line " + whole(*d.score.first_spurious));
+    if (d.first_error) words.push_back("error at line " + whole(*d.first_error));
+    if (!words.empty()) out += "  first of " + d.detector + ": " + text::joined(words) + '\n';
+  }
+  return out;
 }
 
 }  // namespace
@@ -121,25 +137,26 @@ std::string text_of(const FileScore& score) {
     out += score.file_wrong == 0
                ? fmt::format("  the file's own truth: all {} right\n", score.file_truths)
                : fmt::format(
-                     "  the file's own truth: {} of {} wrong, first at line {}\n", score.file_wrong,
+                     "  the file's own truth: {} of {} wrong, at lines {}{}\n", score.file_wrong,
                      score.file_truths,
-                     text::joined(score.wrong_lines, [](std::size_t line) { return whole(line); }));
+                     text::joined(score.wrong_lines, [](std::size_t line) { return whole(line); }),
+                     score.wrong_lines.size() < score.file_wrong ? " ..." : "");
   }
   if (score.not_doubles > 0)
     out += fmt::format("  {} with coordinates that are no doubles: judged, and no detector asked\n",
                        text::counted(score.not_doubles, "query", "queries"));
-  std::vector<Row> rows = {{"detector", "missed", "spurious", "early", "late", "us median", "mean",
-                            "99 %", "worst", "at line"}};
+  std::vector<Row> rows = {{"detector", "missed", "spurious", "early", "late", "median us",
+                            "mean us", "99 % us", "worst us", "at line"}};
   for (const DetectorScore& d : score.detectors) {
     rows.push_back(row_of(d));
     if (d.score_fed)
-      rows.push_back(
-          {"  of what it was fed", whole(d.score_fed->missed), whole(d.score_fed->spurious)});
+      rows.push_back({fmt::format("  as fed ({})", text::counted(d.score_fed->truth, "contact")),
+                      whole(d.score_fed->missed), whole(d.score_fed->spurious)});
   }
   const QueryCost& oracle = score.oracle;
   rows.push_back({"(oracle)", "", "", "", "", micros(oracle.median), micros(oracle.mean),
                   micros(oracle.percentile_99), micros(oracle.worst), whole(oracle.worst_line)});
-  out += table(rows);
+  out += table(rows) + first_wrong(score);
   const std::string lengths = by_length(score);
   if (!lengths.empty()) out += '\n' + lengths;
   return out;
@@ -150,7 +167,7 @@ std::string text_of(const QueryFamily& family, const std::vector<FileScore>& sco
   for (const DetectorScore& d : scores.front().detectors) rows[0].push_back(d.detector);
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const FileScore& score = scores[i];
-    Row row = {fmt::format("{}", family.values[i]), whole(score.queries), whole(score.contacts)};
+    Row row = {fmt::format("{:g}", family.values[i]), whole(score.queries), whole(score.contacts)};
     for (const DetectorScore& d : score.detectors) row.push_back(errors_of(d));
     rows.push_back(std::move(row));
   }
@@ -172,6 +189,10 @@ void fields(Io& io, QueryCost& c) {
   CONTACTCHECK_FIELDS(io, c, median, mean, percentile_99, worst, worst_line);
 }
 template <typename Io>
+void fields(Io& io, DecadeTruth& d) {
+  CONTACTCHECK_FIELDS(io, d, decade, queries, contacts);
+}
+template <typename Io>
 void fields(Io& io, DecadeScore& d) {
   CONTACTCHECK_FIELDS(io, d, decade, score, early_max, late_max);
 }
@@ -189,6 +210,7 @@ void fields(Io& io, FileScore& f) {
   CONTACTCHECK_FIELDS(io, f, name, kind, queries, contacts, starts_in_contact, not_doubles,
                       file_truths, file_wrong);
   CONTACTCHECK_FIELDS(io.unless_empty, f, wrong_lines);
+  CONTACTCHECK_FIELDS(io, f, decades);
   io("oracle_microseconds", f.oracle);
   CONTACTCHECK_FIELDS(io, f, detectors);
 }

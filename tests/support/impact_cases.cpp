@@ -269,6 +269,7 @@ std::vector<ImpactCase> close_roots() {
   const std::array<Vec3, 3> around = {Vec3(-2, -2, 0), Vec3(2, -2, 0), Vec3(0, 2, 0)};
   const std::array<Vec3, 3> right = {Vec3(0, -2, 0), Vec3(0, 2, 0), Vec3(2, 0, 0)};
   const std::array<Vec3, 3> left = {Vec3(0, -2, 0), Vec3(0, 2, 0), Vec3(-2, 0, 0)};
+  const std::array<Vec3, 3> narrow = {Vec3(-0x1p-43, -2, 0), Vec3(0x1p-43, -2, 0), Vec3(0, 2, 0)};
   // Half the distance of the roots: 2^-42 / 3, which is less than 2^-43.
   const double lift = 0x1p-84, half = kThird * 0x1p-42;
   const double before = kThird - half, after = kThird + half;
@@ -286,6 +287,7 @@ std::vector<ImpactCase> close_roots() {
       tilting("TwoCloseContacts", lift, around, {{before, before}, {after, after}}),
       tilting("TwoCloseRootsContactAtTheSecond", lift, right, {{after, after}}),
       tilting("TwoCloseRootsContactAtTheFirst", lift, left, {{before, before}}),
+      tilting("TwoCloseRootsOnBothSides", lift, narrow, {}),
       tilting("TwoCloseRootsOutside", lift, around, {}, 5),
       triple("TripleRootInContact", 0.5, {{0.5, 0.5}}),
       triple("TripleRootAtTheEnd", 1, {{0.5, 0.5}}),

@@ -71,8 +71,8 @@ class Draw {
         return nearly_planar(query);
       case ImpactFamily::kFallBesideEdge:
         return fall_beside_edge(query);
-      case ImpactFamily::kGrazeInPlane:
-        return graze_in_plane(query);
+      case ImpactFamily::kMeetingEnds:
+        return meeting_ends(query);
       case ImpactFamily::kFixedPlane:
         return fixed_plane(query);
       case ImpactFamily::kTurningPlane:
@@ -207,28 +207,29 @@ class Draw {
     }
   }
 
-  /// Point 0 is the middle of an edge, at one end of the step, and everything else lies on its two
-  /// sides: a direction that is computed from differences separates the elements, up to rounding.
-  void graze_in_plane(ImpactQuery& query) {
-    const auto axis = static_cast<int>(below(3)), next = (axis + 1) % 3, last = (axis + 2) % 3;
-    Vec3 middle(unit(), unit(), unit()), half(unit(), unit(), unit());
-    middle[axis] = half[axis] = 0;
-    middle *= std::ldexp(1.0, -static_cast<int>(below(8)));
-    Vec3 normal = Vec3::Zero();
-    normal[next] = -half[last];
-    normal[last] = half[next];
-    const double height = 0.5 * (unit() + 1);
-    const Vec3 low = middle - half, high = middle + half;
-    query.start = query.kind == ImpactKind::vertex_triangle
-                      ? Points{middle, low, high, middle - height * normal}
-                      : Points{middle, middle + height * normal, low, high};
-    for (int axis_in_plane : {next, last})
-      if (chance(2)) query.start[0][axis_in_plane] = std::nextafter(middle[axis_in_plane], unit());
-    query.end = query.start;
-    const std::size_t moving = query.kind == ImpactKind::vertex_triangle ? 1 : 2;
-    const double away = 0.5 * (unit() + 1);
-    for (std::size_t i = 0; i < moving; ++i) query.end[i] += away * normal;
-    if (chance(2)) std::swap(query.start, query.end);
+  /// Two points meet at t = 1/2 or 1/4, or miss by one unit in the last place. All 53 bits of
+  /// coordinates are in use, so differences need 54.
+  void meeting_ends(ImpactQuery& query) {
+    constexpr std::int64_t kOne = std::int64_t{1} << 53;
+    const auto bits = [&] { return static_cast<std::int64_t>(random_() >> 10) - kOne; };
+    const bool vertex = query.kind == ImpactKind::vertex_triangle;
+    const std::size_t meeting = vertex ? 0 : below(2);
+    const std::size_t met = vertex ? 1 + below(3) : 2 + below(2);
+    const std::int64_t weight = chance(2) ? 1 : 3;  // (1 - t) / t
+    for_all(query, [&] { return static_cast<double>(bits()) * 0x1p-53; });
+    for (int axis = 0; axis < 3; ++axis) {
+      std::int64_t met_start = 0, met_end = 0, start = 0, end = 0;
+      do {
+        met_start = bits(), met_end = bits(), start = bits();
+        end = met_end + weight * (met_start - start);
+      } while (end < -kOne || end > kOne);
+      const auto place = [&](std::int64_t value) { return static_cast<double>(value) * 0x1p-53; };
+      query.start[met][axis] = place(met_start);
+      query.end[met][axis] = place(met_end);
+      query.start[meeting][axis] = place(start);
+      query.end[meeting][axis] = place(end);
+    }
+    if (chance(2)) nudge(query.end[meeting]);
   }
 
   /// One coordinate by one unit in the last place.
@@ -413,7 +414,7 @@ std::string formatted(const char* format, Values... values) {
 const char* name_of(ImpactFamily family) {
   constexpr std::array<const char*, kImpactFamilies> kNames = {
       "InSpace",      "SmallWhole",       "OneCrossing",    "RoundedTouch", "ExactTouch",
-      "NudgedTouch",  "NearlyPlanar",     "FallBesideEdge", "GrazeInPlane", "FixedPlane",
+      "NudgedTouch",  "NearlyPlanar",     "FallBesideEdge", "MeetingEnds",  "FixedPlane",
       "TurningPlane", "FixedCombination", "PlanarEnds",     "OnLine",       "LinearEnds",
       "Repeated",     "AtRest",           "FarAway",        "Flips",        "CloseFlips",
       "ScaledAxes",   "TinyAxis",         "WholeRange"};

@@ -24,10 +24,10 @@ enum class ImpactFamily : std::uint8_t {
   kExactTouch,    ///< an exact touch at t = 0, 1/2 or 1: at corners, on edges, inside, just outside
   kNudgedTouch,   ///< the same, then one coordinate is moved by one unit in the last place
   kNearlyPlanar,  ///< one point stays the same affine combination of the others, up to rounding
-  kFallBesideEdge,    ///< along an axis, onto or beside an edge or an end, up to rounding
-  kGrazeInPlane,      ///< touching at one end alone, in a plane that rests, up to rounding
-  kFixedPlane,        ///< all in a plane that rests
-  kTurningPlane,      ///< all in a plane that turns about a direction
+  kFallBesideEdge,  ///< along an axis, onto or beside an edge or an end, up to rounding
+  kMeetingEnds,     ///< a corner or an end meets another one, or nearly so; differences are rounded
+  kFixedPlane,      ///< all in a plane that rests
+  kTurningPlane,    ///< all in a plane that turns about a direction
   kFixedCombination,  ///< one point stays the same affine combination of the others
   kPlanarEnds,        ///< in one plane at t = 0 and in another one at t = 1
   kOnLine,            ///< all on a line that rests

@@ -59,7 +59,7 @@ TEST(ImpactFilter, NeverContradictsTheExactTestOnNearMisses) {
   std::mt19937_64 random(53);
   for (const ImpactFamily family :
        {ImpactFamily::kRoundedTouch, ImpactFamily::kNudgedTouch, ImpactFamily::kNearlyPlanar,
-        ImpactFamily::kFallBesideEdge, ImpactFamily::kGrazeInPlane}) {
+        ImpactFamily::kFallBesideEdge, ImpactFamily::kMeetingEnds}) {
     int decided = 0;
     for (int i = 0; i < 3000; ++i) {
       const ImpactQuery query = draw_impact_query(random, family);

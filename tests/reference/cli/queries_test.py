@@ -56,13 +56,14 @@ def test_missed_contacts_are_findings_and_no_failure(tmp_path):
     found, = score["detectors"]
     assert found["score"]["missed"] > 0
     assert row(text, "root-finder")[1:3] == [str(found["score"][key]) for key in ("missed", "spurious")]
-    assert "root-finder missed" in text, "and by edge length"
+    assert "missed / spurious by longest edge" in text
+    assert f"first of root-finder: missed at line {found['score']['first_missed']}" in text
 
 
 def test_a_right_detector_has_no_table_by_length(tmp_path):
     text, _ = judged(tmp_path, FACES, "--detector", "exact")
     assert row(text, "exact")[1:3] == ["0", "0"]
-    assert "longest edge" not in text
+    assert "longest edge" not in text and "first of" not in text
 
 
 def test_names_the_line_of_the_slowest_query(tmp_path):
@@ -117,7 +118,7 @@ def test_what_no_float_can_hold_is_refused_by_a_detector_in_floats(tmp_path):
     file.write_text("".join(f"{x},1,{y},1,{z},1\n" for x, y, z in rows), encoding="utf-8")
     text, (score,) = judged(tmp_path, file, "--detector", "exact", "--detector", "bullet-bernstein")
     assert [(found["refused"], found["score"]["hit"]) for found in score["detectors"]] == [(0, 1), (1, 0)]
-    assert "bullet-bernstein (1 refused)" in text
+    assert "bullet-bernstein (all refused)" in text
 
 
 def test_families_have_a_table_each_and_the_exact_detector_is_right(tmp_path):
@@ -143,6 +144,14 @@ def test_families_are_the_same_each_time(tmp_path):
                 for value in values]
 
     assert answers() == answers()
+
+
+def test_pictures_of_a_run_in_the_same_folder_stay(tmp_path):
+    picture = tmp_path / "out" / "plots" / "bunny.svg"
+    picture.parent.mkdir(parents=True)
+    picture.touch()
+    successful("queries", EDGES, "--detector", "exact", cwd=tmp_path)
+    assert picture.exists()
 
 
 def test_a_bad_file_leaves_the_last_report(tmp_path):

@@ -1,6 +1,7 @@
 #include "reference/queries/query_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <limits>
@@ -111,6 +112,14 @@ TEST(QueryReader, PassesOverBlanksCarriageReturnsAndTheMissingEndOfTheLastLine) 
   EXPECT_EQ(read_text(text).size(), 1U);
 }
 
+TEST(QueryReader, PassesOverBlankLinesBetweenQueries) {
+  const std::string query = query_text(kOrigin);
+  const auto queries = read_text("\n" + query + " \r\n\n" + query + "\n\n");
+  ASSERT_EQ(queries.size(), 2U);
+  EXPECT_EQ(queries[0].line, 2U);
+  EXPECT_EQ(queries[1].line, 12U);
+}
+
 TEST(QueryReader, ReadsFractionsOfAnySizeThatAreDoubles) {
   EXPECT_EQ(double_of("3", "4"), 0.75);
   EXPECT_EQ(double_of("-3", "4"), -0.75);
@@ -143,6 +152,14 @@ TEST(QueryReader, ReadsANegativeZeroAsZero) {
     EXPECT_TRUE(query.in_doubles);
     EXPECT_EQ(query.query.start[0].x(), 0) << denominator;
   }
+}
+
+TEST(QueryReader, ReadsLeadingZerosAsDecimalNumbers) {
+  EXPECT_EQ(double_of("010", "1"), 10);
+  EXPECT_EQ(double_of("012", "03"), 4);
+  EXPECT_EQ(double_of("09", "3"), 3);
+  EXPECT_EQ(with_first_x("-010", "3").rational.start[0][0], mpq_class(-10, 3));
+  EXPECT_EQ(with_first_x("1", "09").rational.start[0][0], mpq_class(1, 9));
 }
 
 TEST(QueryReader, KeepsRationalsThatAreNoDoubles) {
@@ -258,11 +275,16 @@ TEST(QueryReader, GivesTheQueriesBeforeABadOne) {
 
 TEST(QueryReader, RefusesWhatIsNoFile) {
   const Scratch scratch;
-  const auto kind = ImpactKind::vertex_triangle;
-  for (const auto& file : {scratch.folder() / "missing.csv", scratch.folder()}) {
-    const std::string sentence = sentence_of([&] { QueryReader(file, kind); });
-    EXPECT_NE(sentence.find(file.string()), std::string::npos) << sentence;
-  }
+  const auto pipe = scratch.folder() / "pipe.csv";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const std::pair<std::filesystem::path, const char*> files[] = {
+      {scratch.folder() / "missing.csv", " does not exist."},
+      {scratch.folder(), " is a folder, not a regular file."},
+      {pipe, " is a pipe, not a regular file."},
+      {"/dev/zero", " is a device, not a regular file."}};
+  for (const auto& [file, fault] : files)
+    EXPECT_EQ(sentence_of([&] { QueryReader(file, ImpactKind::edge_edge); }),
+              "query file \"" + file.string() + "\"" + fault);
 }
 
 TEST(KindOfFile, IsFoundInTheNameOfAFileOrOfItsClosestFolder) {
@@ -286,7 +308,11 @@ TEST(KindOfFile, IsFoundInTheNameOfAFileOrOfItsClosestFolder) {
       {"/d/data.csv", std::nullopt},
       {"/d/vf/data.csv", std::nullopt},
       {"/d/vertex-faces/data.csv", std::nullopt},
-      {"/d/326vf_old.csv", std::nullopt}};
+      {"/d/326vf_old.csv", std::nullopt},
+      {"/d/coffee.csv", std::nullopt},  // a word that ends so
+      {"/vertex-face/TREE.csv", face},
+      {"/edge-edge/half-vf.csv", face},
+      {"/d/step_ee.csv", edge}};
   for (const auto& [file, kind] : files) EXPECT_EQ(kind_of_file(file), kind) << file;
 }
 

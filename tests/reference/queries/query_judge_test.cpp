@@ -239,6 +239,14 @@ TEST(JudgeQueries, CountsByTheLongestEdge) {
   EXPECT_NEAR(score.decades[3].early_max, 0.25, kImpactTimeWidth);
 }
 
+TEST(JudgeQueries, CountsLengthsBeyondTheLargestDouble) {
+  const std::string large = mpz_class((mpz_class(1) << 1024) - (mpz_class(1) << 971)).get_str();
+  const std::string edges = "-" + large + ",1,0,1,0,1\n" + large + ",1,0,1,0,1\n";
+  const FileScore score = judged(edges + edges + edges + edges, {in_turn({{true, 0.0}})}, kEdge);
+  ASSERT_EQ(score.detectors.at(0).decades.size(), 1U);
+  EXPECT_EQ(score.detectors[0].decades[0].decade, 308);
+}
+
 TEST(JudgeQueries, TakesTheLongerOfTwoEdges) {
   // Edges of 1 and of 30 metres that cross.
   const std::string edges =
@@ -319,7 +327,7 @@ std::string said_of_truths(const std::string& truths) {
 
 TEST(JudgeQueries, NeedsOneTruthForEachQuery) {
   EXPECT_EQ(said_of_truths("[true, false]"), "");
-  EXPECT_EQ(said_of_truths("[true]"), "TRUTH: 1 truths, and FILE has more queries");
+  EXPECT_EQ(said_of_truths("[true]"), "TRUTH: 1 truth, and FILE has more queries");
   EXPECT_EQ(said_of_truths("[]"), "TRUTH: 0 truths, and FILE has more queries");
   EXPECT_EQ(said_of_truths("[true, false, true]"), "TRUTH: 3 truths, and FILE has 2 queries");
 }

@@ -41,6 +41,7 @@ FileScore score_by_hand() {
   file.file_truths = 1234;
   file.file_wrong = 3;
   file.wrong_lines = {1, 9, 801};
+  file.decades = {{std::nullopt, 1, 0}, {-2, 600, 600}, {0, 100, 100}};
   file.oracle = {5, 25, 250, 1000.4, 9};
   file.detectors = {exact, single};
   return file;
@@ -49,18 +50,19 @@ FileScore score_by_hand() {
 TEST(QueryText, HasARowForEachDetectorAndSize) {
   EXPECT_EQ(text_of(score_by_hand()),
             R"(some/vf.csv: vertex-face, 1234 queries, 700 contacts (12 at the start)
-  the file's own truth: 3 of 1234 wrong, first at line 1, 9, 801
+  the file's own truth: 3 of 1234 wrong, at lines 1, 9, 801
   34 queries with coordinates that are no doubles: judged, and no detector asked
-  detector                         missed  spurious    early     late  us median   mean  99 %  worst  at line
-  exact                                 0         0  4.5e-13  2.0e-14       0.25   1.50  9.88    123      801
-  single (34 refused) (10 errors)     290       100        -        -       0.10   0.20  0.30  12.00       17
-    of what it was fed                  1         1
-  (oracle)                                                                  5.00  25.00   250   1000        9
+  detector                         missed  spurious    early     late  median us  mean us  99 % us  worst us  at line
+  exact                                 0         0  4.5e-13  2.0e-14       0.25     1.50     9.88       123      801
+  single (34 refused) (10 errors)     290       100        -        -       0.10     0.20     0.30     12.00       17
+    as fed (500 contacts)               1         1
+  (oracle)                                                                  5.00    25.00      250      1000        9
+  first of single: missed at line 9, spurious at line 17, error at line 41
 
-  longest edge, m  contacts  single missed  spurious
-  points                  0              0         1
-  1e-2 to 1e-1          600            289        99
-  1e0 to 1e1             90              1         0
+  missed / spurious by longest edge, m  contacts    single
+  0 (points)                                   0     0 / 1
+  1e-2 to 1e-1                               600  289 / 99
+  1e0 to 1e1                                 100     1 / 0
 )");
 }
 
@@ -80,10 +82,22 @@ TEST(QueryText, OfOneQueryWithNothingWrongIsShort) {
   file.detectors = {exact};
   EXPECT_EQ(text_of(file), R"(ee.csv: edge-edge, 1 query, 1 contact
   the file's own truth: all 1 right
-  detector  missed  spurious  early  late  us median  mean  99 %  worst  at line
-  exact          0         0      0     0       1.00  1.00  1.00   1.00        1
-  (oracle)                                      1.00  1.00  1.00   1.00        1
+  detector  missed  spurious  early  late  median us  mean us  99 % us  worst us  at line
+  exact          0         0      0     0       1.00     1.00     1.00      1.00        1
+  (oracle)                                      1.00     1.00     1.00      1.00        1
 )");
+}
+
+TEST(QueryText, OfWhatWasAllRefusedHasNoNumbers) {
+  FileScore file = score_by_hand();
+  file.detectors.resize(1);
+  file.detectors[0] = {};
+  file.detectors[0].detector = "exact";
+  file.detectors[0].queries = file.detectors[0].refused = 8;
+  EXPECT_NE(text_of(file).find("\n  exact (all refused)       -         -      -     -          -"
+                               "        -        -         -        -\n"),
+            std::string::npos)
+      << text_of(file);
 }
 
 TEST(QueryText, SaysNothingOfATruthThatTheFileHasNot) {
@@ -101,13 +115,13 @@ TEST(QueryText, ShowsSizesOfAllDetectorsThatAreWrong) {
   file.detectors[0].decades[1].score.missed = 5;
   std::swap(file.detectors[0], file.detectors[1]);
   const std::string text = text_of(file);
-  const std::size_t begin = text.find("  longest edge");
+  const std::size_t begin = text.find("  missed / spurious by");
   ASSERT_NE(begin, std::string::npos);
   EXPECT_EQ(text.substr(begin),
-            R"(  longest edge, m  contacts  single missed  spurious  exact missed  spurious
-  points                  0              0         1             -         -
-  1e-2 to 1e-1          600            289        99             0         0
-  1e0 to 1e1             90              1         0             5         0
+            R"(  missed / spurious by longest edge, m  contacts    single  exact
+  0 (points)                                   0     0 / 1      -
+  1e-2 to 1e-1                               600  289 / 99  0 / 0
+  1e0 to 1e1                                 100     1 / 0  5 / 0
 )");
 }
 
@@ -143,6 +157,9 @@ TEST(QueryJson, HasEveryFieldOfAScore) {
     "name": "some/vf.csv", "kind": "vertex-face", "queries": 1234, "contacts": 700,
     "starts_in_contact": 12, "not_doubles": 34, "file_truths": 1234, "file_wrong": 3,
     "wrong_lines": [1, 9, 801],
+    "decades": [{"decade": null, "queries": 1, "contacts": 0},
+                {"decade": -2, "queries": 600, "contacts": 600},
+                {"decade": 0, "queries": 100, "contacts": 100}],
     "oracle_microseconds":
       {"median": 5.0, "mean": 25.0, "percentile_99": 250.0, "worst": 1000.4, "worst_line": 9}})"));
   ASSERT_EQ(file.at("detectors").size(), 2U);

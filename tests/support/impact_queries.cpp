@@ -348,11 +348,11 @@ class Draw {
     const auto tiny = static_cast<int>(below(3));
     const bool few_bits = chance(2);
     const int limit = few_bits ? 4 : 1 << 20;
-    const int exponent = static_cast<int>(below(few_bits ? 4 : 50)) - 1074;
+    const int exponent = static_cast<int>(below(few_bits ? 4 : 140)) - 1074;
     for (Points* points : {&query.start, &query.end})
       for (Vec3& point : *points)
         for (int axis = 0; axis < 3; ++axis)
-          point[axis] = axis == tiny ? std::ldexp(whole(limit), exponent) : std::ldexp(unit(), 250);
+          point[axis] = axis == tiny ? std::ldexp(whole(limit), exponent) : std::ldexp(unit(), 298);
   }
 
   void whole_range(ImpactQuery& query) {

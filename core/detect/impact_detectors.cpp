@@ -1,9 +1,8 @@
 // exact        core's exact test (core/narrow/impact.h)
-// root-finder  what many simulators do: the roots of the coplanarity cubic in doubles, and an
-// inside
-//              test in doubles at each, without tolerances. Parallel and planar motion it cannot
-//              see. (Provot, "Collision and self-collision handling in cloth model dedicated to
-//              design garments", 1997.)
+// root-finder  what many simulators do: the roots of the coplanarity cubic in doubles, and a test
+//              of inside in doubles at each, without tolerances. Parallel and planar motion it
+//              cannot see. (Provot, "Collision and self-collision handling in cloth model
+//              dedicated to design garments", 1997.)
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -37,12 +37,6 @@ int lowest_bit_exponent(double value) {
   return parts.exponent + std::countr_zero(parts.mantissa);
 }
 
-int highest_bit_exponent(double value) {
-  const Decomposed parts = decompose(value);
-  CONTACTCHECK_DCHECK(parts.mantissa != 0);
-  return parts.exponent + std::bit_width(parts.mantissa) - 1;
-}
-
 template <std::size_t kInline, std::size_t kLargest>
 std::uint64_t* LimbInteger<kInline, kLargest>::resize(std::size_t size) {
   CONTACTCHECK_INVARIANT(size <= kLargest, "exact integer wider than any predicate needs");

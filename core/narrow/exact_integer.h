@@ -12,9 +12,6 @@ namespace contactcheck {
 /// Exponent e such that value = odd integer * 2^e. @pre value finite and not zero
 int lowest_bit_exponent(double value);
 
-/// Exponent e such that 2^e <= |value| < 2^(e + 1). @pre value finite and not zero
-int highest_bit_exponent(double value);
-
 /// A signed integer of at most kLargest limbs of 64 bits; sign and magnitude. The first kInline
 /// limbs need no allocation. A result that does not fit aborts; it is never cut.
 template <std::size_t kInline, std::size_t kLargest>

@@ -1,10 +1,10 @@
 // Signs of polynomials at roots of polynomials, in integers.
 //
-// Forms. With s = 1 - t, a polynomial in t of degree n is written sum c_i s^(n-i) t^i. Inside (0,
-// 1) its sign is that of sum c_i x^i for x = t / (1 - t), so that (0, 1) becomes (0, oo): near t =
-// 0 the sign is that of the first c_i that is not zero, near t = 1 of the last one, and Descartes'
-// rule bounds the number of roots within by the sign changes of the c_i. A linear motion is the
-// form (place at 0, place at 1), and products of forms are products of polynomials.
+// Forms. With s = 1 - t, a polynomial in t of degree n is written sum c_i s^(n-i) t^i. Within the
+// step its sign is that of sum c_i x^i for x = t / (1 - t), and x goes from 0 to oo. Near t = 0 the
+// sign is that of the first c_i that is not zero, near t = 1 of the last one, and Descartes' rule
+// bounds the number of roots within by the sign changes of the c_i. A linear motion is the form
+// (place at 0, place at 1), and products of forms are products of polynomials.
 //
 // Subintervals. On [k, k + 1] / 2^m the motion, times 2^m, is again a motion from integer places to
 // integer places. So every question about a subinterval is asked of that motion, on (0, 1).
@@ -41,10 +41,13 @@
 //   * 2^c of D, c = 3d + 5: six products of three, three ways to be in the middle: 18 < 2^5
 //   * 2^h of D' D' G, h = 2 (c + 2) + q + 4: D' is below 2^(c + 2), and each of the two products
 //     adds up at most three terms
-// A step of the remainder by a divisor of w bits adds w + 1. Four steps by D give r1 = h + 4 (c +
-// 1) bits, D by that r2 = c + 2 (r1 + 1), and that by this r3 = r1 + 2 (r2 + 1). For B = 2098: d =
-// 2140, q = 4283, c = 6425, h = 17141, r1 = 42845, r2 = 92117, r3 = 227081 bits, 3549 limbs.
-// (Chains whose degrees fall faster take more steps with smaller numbers; none is wider.)
+// A step of the remainder by a divisor of w bits adds w + 1. So there are
+//   * r1 = h + 4 (c + 1) bits after four steps by D
+//   * r2 = c + 2 (r1 + 1) after two of D by that
+//   * r3 = r1 + 2 (r2 + 1) after two of the first by the second
+// For B = 2098: d = 2140, q = 4283, c = 6425, h = 17141, r1 = 42845, r2 = 92117, r3 = 227081 bits,
+// 3549 limbs. (Chains whose degrees fall faster take more steps with smaller numbers; none is
+// wider.)
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -56,7 +59,6 @@
 
 #include "core/narrow/exact_integer.h"
 #include "core/narrow/impact.h"
-#include "core/types/check.h"
 
 namespace contactcheck {
 namespace {

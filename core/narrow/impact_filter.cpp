@@ -159,10 +159,6 @@ class Filter {
     std::array<Vector, 4> start, end;
   };
 
-  static Vector minus(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  }
-
   Real place(std::size_t point, std::size_t axis, double t) const {
     if (t == 0) return start_[point][axis];
     if (t == 1) return end_[point][axis];

@@ -2,16 +2,16 @@
 // polynomial in t.
 //
 // The elements can meet only when the four points are coplanar. If their determinant f(t) is not
-// identically zero, its roots are the only such times. Else contact can begin only at t = 0, at t =
-// 1, or where an orientation of three points in a projection, or a difference of two coordinates,
-// becomes or stops being zero.
+// identically zero, its roots are the only such times. Else contact can begin only at an end of the
+// step, or where an orientation of three points in a projection, or a difference of two
+// coordinates, becomes or stops being zero.
 //
 // Contact at a time, by barycentric coordinates. Of v in the triangle a, b, c with normal n: the
 // products of n with (b - v) x (c - v) and so on are not negative. Of two edges with directions d
-// and e and n = d x e: the point of the common line is at s = ((b0 - a0) x e) . n / n . n of the
-// first and at
-// ((b0 - a0) x d) . n / n . n of the second, both in [0, 1]. If n is zero, an end of one edge, or
-// the vertex, lies on a segment.
+// and e and n = d x e: their lines meet at shares of both edges, both in [0, 1]:
+//   ((b0 - a0) x e) . n / n . n of the first
+//   ((b0 - a0) x d) . n / n . n of the second
+// If n is zero, an end of one edge, or the vertex, lies on a segment.
 #include "reference/oracle/elementary_impact.h"
 
 #include <algorithm>
@@ -20,8 +20,6 @@
 #include <optional>
 #include <utility>
 #include <vector>
-
-#include "core/types/check.h"
 
 namespace contactcheck::oracle {
 namespace {

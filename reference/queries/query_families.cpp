@@ -106,6 +106,15 @@ Queries drawn(std::uint64_t family, double value, double offset, const Make& mak
   return out;
 }
 
+/// The same along the axes, without rounding.
+template <typename Make>
+Queries straight(std::uint64_t family, double value, const Make& make) {
+  Draw draw(family, value);
+  Queries out;
+  for (std::size_t i = 0; i < kDrawn; ++i) out.push_back(make(draw));
+  return out;
+}
+
 std::vector<double> powers_of_ten(int from, int to, int by = 1) {
   std::vector<double> out;
   for (int exponent = from; by > 0 ? exponent <= to : exponent >= to; exponent += by) {
@@ -209,33 +218,24 @@ std::vector<QueryFamily> make_families() {
               });
   add_falling(all, "one-axis", "crosses", " straight along an axis", "edge length, m", lengths,
               [](ImpactKind kind, std::uint64_t family, double e) {
-                Draw draw(family, e);
-                Queries out;
-                for (std::size_t i = 0; i < kDrawn; ++i) {
+                return straight(family, e, [&](Draw& draw) {
                   const auto [x, y] = inside(kind, draw);
-                  out.push_back(falling(kind, e, x, y, 0.5 * e, -0.5 * e));
-                }
-                return out;
+                  return falling(kind, e, x, y, 0.5 * e, -0.5 * e);
+                });
               });
   add_falling(all, "leaves", "starts in contact with and leaves", "", "edge length, m", lengths,
               [](ImpactKind kind, std::uint64_t family, double e) {
-                Draw draw(family, e);
-                Queries out;
-                for (std::size_t i = 0; i < kDrawn; ++i) {
+                return straight(family, e, [&](Draw& draw) {
                   const auto [x, y] = inside(kind, draw);
-                  out.push_back(falling(kind, e, x, y, 0, draw.between(0.1, 1) * e));
-                }
-                return out;
+                  return falling(kind, e, x, y, 0, draw.between(0.1, 1) * e);
+                });
               });
   add_falling(all, "arrives", "reaches", " at the end of the step", "edge length, m", lengths,
               [](ImpactKind kind, std::uint64_t family, double e) {
-                Draw draw(family, e);
-                Queries out;
-                for (std::size_t i = 0; i < kDrawn; ++i) {
+                return straight(family, e, [&](Draw& draw) {
                   const auto [x, y] = inside(kind, draw);
-                  out.push_back(falling(kind, e, x, y, draw.between(0.1, 1) * e, 0));
-                }
-                return out;
+                  return falling(kind, e, x, y, draw.between(0.1, 1) * e, 0);
+                });
               });
   add_falling(all, "one-unit", "stops one unit in the last place before, at and behind", "",
               "edge length, m", lengths, [](ImpactKind kind, std::uint64_t family, double e) {

@@ -8,15 +8,11 @@
 // Exit code 1: an answer differs from the oracle's. The line names the seed: --seed N --scenes 1
 // runs that scene alone.
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/types/check.h"
@@ -24,6 +20,7 @@
 #include "tests/conformance/detectors.h"
 #include "tests/hard/exact_detectors.h"
 #include "tests/odd/odd_scene.h"
+#include "tests/odd/seed_arguments.h"
 
 namespace contactcheck::test {
 namespace {
@@ -109,30 +106,11 @@ class Comparison {
   std::vector<ContactSet> truths_;  // per frame
 };
 
-struct Arguments {
-  std::uint64_t seed = 1, scenes = std::numeric_limits<std::uint64_t>::max(), seconds = 10;
-};
-
-bool parse(int argc, char** argv, Arguments& out) {
-  for (int i = 1; i < argc; i += 2) {
-    const std::string_view name = argv[i];
-    std::uint64_t* value = name == "--seed"      ? &out.seed
-                           : name == "--scenes"  ? &out.scenes
-                           : name == "--seconds" ? &out.seconds
-                                                 : nullptr;
-    if (value == nullptr || i + 1 == argc) return false;
-    const char* end = argv[i + 1] + std::strlen(argv[i + 1]);
-    const auto [rest, error] = std::from_chars(argv[i + 1], end, *value);
-    if (error != std::errc() || rest != end) return false;
-  }
-  return true;
-}
-
-int run(const Arguments& arguments) {
+int run(const SeedArguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(arguments.seconds);
   Totals totals;
-  while (totals.scenes < arguments.scenes && Clock::now() < end) {
+  while (totals.scenes < arguments.count && Clock::now() < end) {
     const std::uint64_t seed = arguments.seed + totals.scenes;
     const OddScene scene = odd_scene(seed);
     Comparison comparison(seed, scene, totals);
@@ -160,8 +138,8 @@ int run(const Arguments& arguments) {
 }  // namespace contactcheck::test
 
 int main(int argc, char** argv) {
-  contactcheck::test::Arguments arguments;
-  if (!contactcheck::test::parse(argc, argv, arguments)) {
+  contactcheck::test::SeedArguments arguments;
+  if (!contactcheck::test::parse(argc, argv, "--scenes", arguments)) {
     std::fprintf(stderr, "usage: odd_bodies [--seed N] [--scenes N] [--seconds N]\n");
     return 2;
   }

@@ -8,29 +8,22 @@
 //
 // Exit code 1: an answer differs from the oracle's. The lines name the seed: --seed N --count 1
 // runs that query alone.
-#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
-#include <limits>
 #include <random>
 #include <string>
-#include <string_view>
 
 #include "core/narrow/impact.h"
 #include "core/narrow/impact_filter.h"
 #include "reference/oracle/elementary_impact.h"
+#include "tests/odd/seed_arguments.h"
 #include "tests/support/impact_queries.h"
 
 namespace contactcheck::test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-struct Arguments {
-  std::uint64_t seed = 1, count = std::numeric_limits<std::uint64_t>::max(), seconds = 10;
-};
 
 struct Totals {
   std::uint64_t queries = 0, contacts = 0, at_start = 0, undecided = 0, wrong = 0;
@@ -82,22 +75,7 @@ class Comparison {
   Totals totals_;
 };
 
-bool parse(int argc, char** argv, Arguments& out) {
-  for (int i = 1; i < argc; i += 2) {
-    const std::string_view name = argv[i];
-    std::uint64_t* value = name == "--seed"      ? &out.seed
-                           : name == "--count"   ? &out.count
-                           : name == "--seconds" ? &out.seconds
-                                                 : nullptr;
-    if (value == nullptr || i + 1 == argc) return false;
-    const char* end = argv[i + 1] + std::strlen(argv[i + 1]);
-    const auto [rest, error] = std::from_chars(argv[i + 1], end, *value);
-    if (error != std::errc() || rest != end) return false;
-  }
-  return true;
-}
-
-int run(const Arguments& arguments) {
+int run(const SeedArguments& arguments) {
   const auto end = Clock::now() + std::chrono::seconds(arguments.seconds);
   Comparison comparison;
   const Totals& totals = comparison.totals();
@@ -124,8 +102,8 @@ int run(const Arguments& arguments) {
 }  // namespace contactcheck::test
 
 int main(int argc, char** argv) {
-  contactcheck::test::Arguments arguments;
-  if (!contactcheck::test::parse(argc, argv, arguments)) {
+  contactcheck::test::SeedArguments arguments;
+  if (!contactcheck::test::parse(argc, argv, "--count", arguments)) {
     std::fprintf(stderr, "usage: odd_impacts [--seed N] [--count N] [--seconds N]\n");
     return 2;
   }

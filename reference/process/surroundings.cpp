@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/time.h>
@@ -18,6 +17,7 @@
 #include <locale>
 
 #include "reference/process/process_tree.h"
+#include "reference/process/shared_page.h"
 #include "reference/text/printable.h"
 
 namespace contactcheck::process {
@@ -238,13 +238,8 @@ void end_with_supervisor() {
 
 SharedProgress* join_supervisor(int progress_fd, SharedProgress* fallback) {
   end_with_supervisor();
-  void* page =
-      mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE, MAP_SHARED, progress_fd, 0);
-  if (page == MAP_FAILED) return fallback;
-  close(progress_fd);
-  // A library may fork and let the copy run on: that one dies at its first step.
-  madvise(page, sizeof(SharedProgress), MADV_DONTFORK);
-  auto* shared = static_cast<SharedProgress*>(page);
+  auto* const shared = join_page<SharedProgress>(progress_fd);
+  if (shared == nullptr) return fallback;
   if (getppid() != shared->supervisor) _exit(1);  // it died before it was asked for its signal
   return shared;
 }

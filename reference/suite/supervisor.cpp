@@ -1,20 +1,17 @@
 #include "reference/suite/supervisor.h"
 
 #include <signal.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
-#include <new>
 #include <thread>
 
 #include "core/types/check.h"
 #include "reference/process/interrupts.h"
+#include "reference/process/shared_page.h"
 #include "reference/process/worker_process.h"
 
 namespace contactcheck::suite {
@@ -31,33 +28,6 @@ constexpr double kSecondsToLeave = 5.0;
 // Without a step of the suite's own code, however short the limit of one call: an exact judgement
 // of a large frame may take longer than a detector is given.
 constexpr double kSecondsOfOwnCode = 60.0;
-
-/// The shared page and its descriptor, which the child inherits.
-class SharedPage {
- public:
-  SharedPage() : file_("contactcheck-progress") {
-    if (ftruncate(file_.fd(), sizeof(process::SharedProgress)) != 0) fail();
-    void* page = mmap(nullptr, sizeof(process::SharedProgress), PROT_READ | PROT_WRITE, MAP_SHARED,
-                      file_.fd(), 0);
-    if (page == MAP_FAILED) fail();
-    progress_ = new (page) process::SharedProgress;
-    progress_->supervisor = getpid();
-  }
-  ~SharedPage() { munmap(progress_, sizeof(process::SharedProgress)); }
-  SharedPage(const SharedPage&) = delete;
-  SharedPage& operator=(const SharedPage&) = delete;
-
-  int fd() const { return file_.fd(); }
-  const process::SharedProgress& progress() const { return *progress_; }
-
- private:
-  [[noreturn]] static void fail() {
-    throw InputError(std::string("cannot make shared memory: ") + std::strerror(errno));
-  }
-
-  process::MemoryFile file_;
-  process::SharedProgress* progress_ = nullptr;
-};
 
 std::string short_text(double number) {
   char text[32];
@@ -170,14 +140,15 @@ WorkerOutcome outcome_of(const process::SharedProgress& progress, const RunSetti
 WorkerOutcome run_supervised(const std::filesystem::path& executable,
                              const std::filesystem::path& job_file, const RunSettings& settings,
                              const ProgressCallback& on_progress) {
-  const SharedPage page;
+  const process::SharedPage<process::SharedProgress> page("contactcheck-progress");
+  page.value().supervisor = getpid();
   process::WorkerProcess worker(executable,
                                 {"worker", job_file.string(), "--progress-fd",
                                  std::to_string(process::WorkerProcess::kInheritedFd)},
                                 page.fd());
-  const std::string limit = watch_to_the_end(worker, page.progress(), settings, on_progress);
+  const std::string limit = watch_to_the_end(worker, page.value(), settings, on_progress);
   const int status = worker.reap();
-  WorkerOutcome outcome = outcome_of(page.progress(), settings, status, limit);
+  WorkerOutcome outcome = outcome_of(page.value(), settings, status, limit);
   if (!outcome.done) outcome.error_text = worker.error_text();
   return outcome;
 }

@@ -17,25 +17,6 @@ constexpr double kMargin = 16, kLetter = 7.0, kBars = 380, kLine = 18, kHead = 5
 constexpr double kLane = 9, kLaneGap = 1, kRowGap = 9, kAxis = 46;
 constexpr double kThinnest = 1.5;  // one wrong contact of a million must still be seen
 
-struct Colour {
-  const char* light;
-  const char* dark;
-};
-// Neighbours in the order differ in lightness too, for eyes that tell no colours apart.
-constexpr Colour kColours[kBarSeries] = {
-    {"#0b62c4", "#58a6ff"}, {"#d9730d", "#f0a050"}, {"#00695c", "#2fb39f"}, {"#b0568c", "#e39bc6"},
-    {"#6e4a00", "#a88a3c"}, {"#5ab4d6", "#9fdcf2"}, {"#a12622", "#e5716d"}, {"#7a828a", "#aab2ba"}};
-
-std::string style() {
-  std::string light = ".grid{stroke:#d1d9e0}.faint{fill:#59636e}\n", dark;
-  dark = ".grid{stroke:#3a424c}.faint{fill:#9aa5b1}\n";
-  for (std::size_t s = 0; s < kBarSeries; ++s) {
-    light += fmt::format(".s{}{{fill:{}}}", s, kColours[s].light);
-    dark += fmt::format(".s{}{{fill:{}}}", s, kColours[s].dark);
-  }
-  return light + "\n@media(prefers-color-scheme:dark){" + dark + "}\n";
-}
-
 double width_of(const std::string& words) { return kLetter * static_cast<double>(words.size()); }
 
 /// From 0 to the next of 1, 2 and 5 times a power of ten; in percent.
@@ -63,7 +44,7 @@ class LinearAxis {
 }  // namespace
 
 std::string bar_plot(const BarChart& chart) {
-  CONTACTCHECK_INVARIANT(chart.series.size() <= kBarSeries, "a colour for each series");
+  CONTACTCHECK_INVARIANT(chart.series.size() <= kSeriesColours, "a colour for each series");
   if (chart.rows.empty()) return "";
 
   double names = 0.0, words = 0.0, longest = 0.0;
@@ -137,7 +118,7 @@ std::string bar_plot(const BarChart& chart) {
     svg.text(kMargin, foot_y, line, Anchor::kStart, "faint");
     foot_y += kLine;
   }
-  return svg.document(chart.title, style());
+  return svg.document(chart.title, series_css("fill"));
 }
 
 }  // namespace contactcheck::report

@@ -29,14 +29,12 @@ struct BarChart {
   enum class Scale { kLinear, kErrors };
 
   std::string title;
-  std::vector<std::string> series;  ///< at most kBarSeries
+  std::vector<std::string> series;  ///< at most kSeriesColours
   std::vector<BarRow> rows;
   std::string axis;  ///< what a length is
   Scale scale = Scale::kLinear;
   std::vector<std::string> foot;  ///< lines beneath
 };
-
-inline constexpr std::size_t kBarSeries = 8;
 
 /// An SVG document; empty without rows.
 /// @pre no more series than there are colours; see Scale

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/report/pictures/bar_plot.h"
+#include "reference/report/pictures/svg.h"
 #include "reference/report/tables/error_counts.h"
 #include "reference/report/tables/section.h"
 #include "reference/report/tables/stage_losses.h"
@@ -100,8 +101,8 @@ std::string stages_picture(const results::Results& results) {
     for (const StageLoss& loss : own.losses())
       if (std::find(series.begin(), series.end(), loss.stage) == series.end())
         series.push_back(loss.stage);
-  if (series.size() > kBarSeries) {
-    series.resize(kBarSeries);
+  if (series.size() > kSeriesColours) {
+    series.resize(kSeriesColours);
     series.back() = "other stages";
   }
   BarChart chart;

@@ -100,6 +100,24 @@ std::string Svg::document(const std::string& title, const std::string& css) cons
       width_, height_, xml_text(title), paper_css(), css, body_);
 }
 
+std::string series_css(const std::string& property) {
+  struct Colour {
+    const char* light;
+    const char* dark;
+  };
+  constexpr Colour kColours[kSeriesColours] = {{"#0b62c4", "#58a6ff"}, {"#d9730d", "#f0a050"},
+                                               {"#00695c", "#2fb39f"}, {"#b0568c", "#e39bc6"},
+                                               {"#6e4a00", "#a88a3c"}, {"#5ab4d6", "#9fdcf2"},
+                                               {"#a12622", "#e5716d"}, {"#7a828a", "#aab2ba"}};
+  std::string light = ".grid{stroke:#d1d9e0}.faint{fill:#59636e}\n";
+  std::string dark = ".grid{stroke:#3a424c}.faint{fill:#9aa5b1}\n";
+  for (std::size_t s = 0; s < kSeriesColours; ++s) {
+    light += fmt::format(".s{}{{{}:{}}}", s, property, kColours[s].light);
+    dark += fmt::format(".s{}{{{}:{}}}", s, property, kColours[s].dark);
+  }
+  return light + "\n@media(prefers-color-scheme:dark){" + dark + "}\n";
+}
+
 std::string themed_css(const std::vector<ThemedColour>& colours) {
   std::string light, dark;
   for (const ThemedColour& colour : colours) {

@@ -1,6 +1,7 @@
 // A picture as text: Scalable Vector Graphics, without a browser or a library.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,12 @@ struct ThemedColour {
   const char *css_class, *property, *name, *light, *dark;
 };
 std::string themed_css(const std::vector<ThemedColour>& colours);
+
+/// Rules for the classes s0, s1, ... of series, which give their colours to `property`, and for
+/// `grid` and `faint`. Neighbours in the order differ in lightness too, for eyes that tell no
+/// colours apart.
+inline constexpr std::size_t kSeriesColours = 8;
+std::string series_css(const std::string& property);
 
 /// With &, <, >, " and control characters made harmless.
 std::string xml_text(const std::string& text);

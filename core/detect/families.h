@@ -18,4 +18,7 @@ void register_bd_tree(DetectorCatalog& catalog);
 /// Adds ffd-lazy and full-refit.
 void register_lazy_detectors(DetectorCatalog& catalog);
 
+/// Adds the detectors of elementary impacts, exact and root-finder.
+void register_impact_detectors(DetectorCatalog& catalog);
+
 }  // namespace contactcheck

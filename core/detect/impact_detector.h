@@ -2,21 +2,19 @@
 // time.
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "core/types/impact.h"
-#include "core/types/semantics.h"
 
 namespace contactcheck {
 
 /// What a detector answers to an ImpactQuery.
 struct ReportedImpact {
   bool contact = false;
-  std::optional<double> time;  ///< of the first contact, in [0, 1]; none: it reports no times
+  /// Of the first contact, in [0, 1]; none: it reports no times.
+  std::optional<double> time = std::nullopt;
+  /// Metres: elements that come as near as this are contact to it in this query. None: as declared.
+  std::optional<double> tolerance = std::nullopt;
 };
 
 /// Answers depend on the query alone.
@@ -33,20 +31,11 @@ class ImpactDetector {
   /// not refuse it.
   virtual ImpactQuery fed(const ImpactQuery& query) const { return query; }
 
+  /// What it declares to call contact although nothing meets; it may depend on its options.
+  virtual ImpactTolerance tolerance() const { return {}; }
+
  protected:
   ImpactDetector() = default;
 };
-
-/// A detector by name, what it claims, and how to make one.
-struct ImpactDetectorInfo {
-  std::string name;
-  std::string summary;  ///< one line for lists
-  Precision precision = Precision::kDouble;
-  std::vector<ImpactKind> kinds = {ImpactKind::vertex_triangle, ImpactKind::edge_edge};
-  std::function<std::unique_ptr<ImpactDetector>()> make;
-};
-
-/// `exact`, which is find_impact(), and `root-finder`, a plain one in doubles to compare with.
-std::vector<ImpactDetectorInfo> core_impact_detectors();
 
 }  // namespace contactcheck

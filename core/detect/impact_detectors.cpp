@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/detect/families.h"
 #include "core/detect/impact_detector.h"
 #include "core/narrow/impact.h"
 
@@ -92,17 +93,17 @@ class RootFinder final : public ImpactDetector {
 
 }  // namespace
 
-std::vector<ImpactDetectorInfo> core_impact_detectors() {
-  return {{"exact",
-           "exact: filters with proven bounds, then integers",
-           Precision::kDouble,
-           {ImpactKind::vertex_triangle, ImpactKind::edge_edge},
-           [] { return std::make_unique<ExactImpact>(); }},
-          {"root-finder",
-           "roots of the coplanarity cubic and inside tests in plain doubles",
-           Precision::kDouble,
-           {ImpactKind::vertex_triangle, ImpactKind::edge_edge},
-           [] { return std::make_unique<RootFinder>(); }}};
+void register_impact_detectors(DetectorCatalog& catalog) {
+  ImpactDetectorInfo exact;
+  exact.id = "exact";
+  exact.summary = "exact: filters with proven bounds, then integers";
+  exact.make = [](const Options&) { return std::make_unique<ExactImpact>(); };
+  catalog.add(std::move(exact));
+  ImpactDetectorInfo roots;
+  roots.id = "root-finder";
+  roots.summary = "roots of the coplanarity cubic and inside tests in plain doubles";
+  roots.make = [](const Options&) { return std::make_unique<RootFinder>(); };
+  catalog.add(std::move(roots));
 }
 
 }  // namespace contactcheck

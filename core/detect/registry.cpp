@@ -12,6 +12,9 @@
 namespace contactcheck {
 namespace {
 
+/// Below it every whole number is a double, and a long long.
+constexpr double kLargestPlainInteger = 0x1p53;
+
 std::string join(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& w : words) out += (out.empty() ? "" : ", ") + w;
@@ -29,7 +32,9 @@ std::string checked_number(const std::string& detector, const OptionInfo& option
                      "\"; allowed: " + (option.integer ? "a whole number" : "a number") + " from " +
                      shortest(option.min) + " to " + shortest(option.max));
   }
-  return shortest(value + 0.0);  // -0 is 0
+  if (option.integer && std::abs(value) < kLargestPlainInteger)
+    return std::to_string(static_cast<long long>(value));  // 1000000 and not 1e+06, for strtol
+  return shortest(value + 0.0);                            // -0 is 0
 }
 
 std::string checked_value(const std::string& detector, const OptionInfo& option,
@@ -52,8 +57,8 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
-const OptionInfo& option_named(const DetectorInfo& info, std::string_view text,
-                               const std::string& name) {
+template <typename Info>
+const OptionInfo& option_named(const Info& info, std::string_view text, const std::string& name) {
   for (const OptionInfo& option : info.options)
     if (option.name == name) return option;
   std::vector<std::string> names;
@@ -62,7 +67,8 @@ const OptionInfo& option_named(const DetectorInfo& info, std::string_view text,
                    info.id + " knows " + (names.empty() ? "no options" : join(names)));
 }
 
-std::string canonical_name(const DetectorInfo& info, const Options& options) {
+template <typename Info>
+std::string canonical_name(const Info& info, const Options& options) {
   std::string text;
   for (const auto& [name, value] : options) {
     const OptionInfo& option = option_named(info, info.id, name);
@@ -71,35 +77,35 @@ std::string canonical_name(const DetectorInfo& info, const Options& options) {
   return info.id + text;
 }
 
-}  // namespace
-
-void DetectorCatalog::add(DetectorInfo info) {
-  CONTACTCHECK_INVARIANT(find(info.id) == nullptr, "detector ids are unique: " + info.id);
-  // In the form that parse gives values, so that canonical names can leave defaults out.
-  for (OptionInfo& option : info.options)
-    option.default_value = checked_value(info.id, option, option.default_value);
-  infos_.push_back(std::move(info));
-}
-
-const DetectorInfo* DetectorCatalog::find(std::string_view id) const {
-  for (const DetectorInfo& info : infos_)
+template <typename Info>
+const Info* find_in(const std::vector<Info>& infos, std::string_view id) {
+  for (const Info& info : infos)
     if (info.id == id) return &info;
   return nullptr;
 }
 
-DetectorSpec DetectorCatalog::parse(std::string_view text) const {
-  const std::size_t colon = text.find(':');
-  const DetectorInfo* info = find(text.substr(0, colon));
-  if (info == nullptr) {
-    const std::string id(text.substr(0, colon));
-    std::vector<std::string> ids;
-    for (const DetectorInfo& known : infos_) ids.push_back(known.id);
-    throw InputError("unknown detector \"" + id + "\"; " + suggestion(id, ids) +
-                     "`contactcheck list` names all");
-  }
+template <typename Info>
+void add_to(std::vector<Info>& infos, Info info) {
+  CONTACTCHECK_INVARIANT(find_in(infos, info.id) == nullptr, "detector ids are unique: " + info.id);
+  // In the form that parse gives values, so that canonical names can leave defaults out.
+  for (OptionInfo& option : info.options)
+    option.default_value = checked_value(info.id, option, option.default_value);
+  infos.push_back(std::move(info));
+}
+
+template <typename Info>
+std::vector<std::string> ids_of(const std::vector<Info>& infos) {
+  std::vector<std::string> ids;
+  for (const Info& info : infos) ids.push_back(info.id);
+  return ids;
+}
+
+template <typename Info>
+DetectorSpec spec_of(const Info& info, std::string_view text) {
   DetectorSpec spec;
-  spec.id = info->id;
-  for (const OptionInfo& option : info->options) spec.options[option.name] = option.default_value;
+  spec.id = info.id;
+  for (const OptionInfo& option : info.options) spec.options[option.name] = option.default_value;
+  const std::size_t colon = text.find(':');
   if (colon != std::string_view::npos) {
     std::set<std::string> given;
     for (const std::string& part : split(text.substr(colon + 1), ',')) {
@@ -108,7 +114,7 @@ DetectorSpec DetectorCatalog::parse(std::string_view text) const {
         throw InputError("detector \"" + std::string(text) + "\": \"" + part +
                          "\" is not of the form option=value");
       }
-      const OptionInfo& option = option_named(*info, text, part.substr(0, equals));
+      const OptionInfo& option = option_named(info, text, part.substr(0, equals));
       if (!given.insert(option.name).second) {
         throw InputError("detector \"" + std::string(text) + "\": option " + option.name +
                          " is given twice");
@@ -116,8 +122,37 @@ DetectorSpec DetectorCatalog::parse(std::string_view text) const {
       spec.options[option.name] = checked_value(std::string(text), option, part.substr(equals + 1));
     }
   }
-  spec.name = canonical_name(*info, spec.options);
+  spec.name = canonical_name(info, spec.options);
   return spec;
+}
+
+std::string id_in(std::string_view text) { return std::string(text.substr(0, text.find(':'))); }
+
+}  // namespace
+
+void DetectorCatalog::add(DetectorInfo info) { add_to(infos_, std::move(info)); }
+void DetectorCatalog::add(ImpactDetectorInfo info) { add_to(impact_infos_, std::move(info)); }
+
+const DetectorInfo* DetectorCatalog::find(std::string_view id) const { return find_in(infos_, id); }
+const ImpactDetectorInfo* DetectorCatalog::find_impact(std::string_view id) const {
+  return find_in(impact_infos_, id);
+}
+
+DetectorSpec DetectorCatalog::parse(std::string_view text) const {
+  const std::string id = id_in(text);
+  if (const DetectorInfo* const info = find(id)) return spec_of(*info, text);
+  if (find_impact(id) != nullptr)
+    throw InputError("detector \"" + id + "\" answers queries of moving elements alone; " +
+                     "`contactcheck queries` asks it");
+  throw InputError("unknown detector \"" + id + "\"; " + suggestion(id, ids_of(infos_)) +
+                   "`contactcheck list` names all");
+}
+
+DetectorSpec DetectorCatalog::parse_impact(std::string_view text) const {
+  const std::string id = id_in(text);
+  if (const ImpactDetectorInfo* const info = find_impact(id)) return spec_of(*info, text);
+  const std::vector<std::string> ids = ids_of(impact_infos_);
+  throw InputError("no detector of queries is named \"" + id + "\"; there are " + join(ids));
 }
 
 std::unique_ptr<Detector> DetectorCatalog::make(const DetectorSpec& spec) const {

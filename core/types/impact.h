@@ -39,4 +39,11 @@ struct Impact {
   double earliest = 0, latest = 0;
 };
 
+/// What a detector calls contact although nothing meets: elements whose smallest distance within
+/// the step is at most the larger of the two.
+struct ImpactTolerance {
+  double absolute = 0;  ///< metres
+  double of_start = 0;  ///< times the distance of the elements at t = 0
+};
+
 }  // namespace contactcheck

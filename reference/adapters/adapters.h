@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/detect/impact_detector.h"
 #include "core/detect/registry.h"
 
 namespace contactcheck::adapters {
@@ -24,7 +23,7 @@ Adapter fcl_adapter();
 Adapter libccd_adapter();
 
 /// Detectors of elementary impacts.
-std::vector<ImpactDetectorInfo> bullet_impact_detectors();
-std::vector<ImpactDetectorInfo> fcl_impact_detectors();
+ImpactDetectorInfo bullet_impact_detector();
+ImpactDetectorInfo fcl_impact_detector();
 
 }  // namespace contactcheck::adapters

@@ -66,12 +66,14 @@ class BulletBernstein final : public ImpactDetector {
 
 }  // namespace
 
-std::vector<ImpactDetectorInfo> bullet_impact_detectors() {
-  return {{"bullet-bernstein",
-           "Bullet's bernsteinCCD of deformable bodies, vertex-face alone",
-           Precision::kSingle,
-           {ImpactKind::vertex_triangle},
-           [] { return std::make_unique<BulletBernstein>(); }}};
+ImpactDetectorInfo bullet_impact_detector() {
+  ImpactDetectorInfo info;
+  info.id = "bullet-bernstein";
+  info.summary = "Bullet's bernsteinCCD of deformable bodies, vertex-face alone";
+  info.precision = Precision::kSingle;
+  info.kinds = {ImpactKind::vertex_triangle};
+  info.make = [](const Options&) { return std::make_unique<BulletBernstein>(); };
+  return info;
 }
 
 }  // namespace contactcheck::adapters

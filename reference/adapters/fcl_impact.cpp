@@ -33,12 +33,12 @@ class FclIntersect final : public ImpactDetector {
 
 }  // namespace
 
-std::vector<ImpactDetectorInfo> fcl_impact_detectors() {
-  return {{"fcl-intersect",
-           "FCL's Intersect::intersect_VF and intersect_EE",
-           Precision::kDouble,
-           {ImpactKind::vertex_triangle, ImpactKind::edge_edge},
-           [] { return std::make_unique<FclIntersect>(); }}};
+ImpactDetectorInfo fcl_impact_detector() {
+  ImpactDetectorInfo info;
+  info.id = "fcl-intersect";
+  info.summary = "FCL's Intersect::intersect_VF and intersect_EE";
+  info.make = [](const Options&) { return std::make_unique<FclIntersect>(); };
+  return info;
 }
 
 }  // namespace contactcheck::adapters

@@ -22,6 +22,8 @@ std::vector<Adapter> adapters() {
 void register_reference_detectors(DetectorCatalog& catalog) {
   for (const Adapter& adapter : adapters())
     for (const DetectorInfo& detector : adapter.detectors) catalog.add(detector);
+  catalog.add(fcl_impact_detector());
+  catalog.add(bullet_impact_detector());
 }
 
 DetectorCatalog standard_catalog() {
@@ -29,13 +31,6 @@ DetectorCatalog standard_catalog() {
   register_core_detectors(catalog);
   register_reference_detectors(catalog);
   return catalog;
-}
-
-std::vector<ImpactDetectorInfo> standard_impact_detectors() {
-  std::vector<ImpactDetectorInfo> all = core_impact_detectors();
-  for (auto&& detectors : {fcl_impact_detectors(), bullet_impact_detectors()})
-    all.insert(all.end(), detectors.begin(), detectors.end());
-  return all;
 }
 
 std::map<std::string, std::string> library_versions() {

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 
-#include "core/detect/impact_detector.h"
 #include "core/detect/registry.h"
 
 namespace contactcheck::adapters {
@@ -14,9 +13,6 @@ void register_reference_detectors(DetectorCatalog& catalog);
 
 /// A catalogue of all detectors of this program: core's and the adapted ones.
 DetectorCatalog standard_catalog();
-
-/// All detectors of elementary impacts: core's and the adapted ones.
-std::vector<ImpactDetectorInfo> standard_impact_detectors();
 
 /// Versions of the libraries that detectors are made of, by library: "fcl" -> "0.7.0".
 std::map<std::string, std::string> library_versions();

@@ -69,6 +69,10 @@ void add_export(CommandLine& line) {
       ->check(whole_in(0, ~std::uint64_t{0}))
       ->needs(queries);
   exported
+      ->add_flag("--certificates", arguments->sample.certificates,
+                 "also write a proof of each query's truth, and check.py")
+      ->needs(queries);
+  exported
       ->add_option("--out", arguments->out,
                    "folder for surfaces, certificates, check.py (default out/export)")
       ->type_name("DIR");
@@ -76,7 +80,7 @@ void add_export(CommandLine& line) {
       "Examples:\n"
       "  contactcheck export bunny-touch && python3 out/export/bunny-touch/check.py\n"
       "  contactcheck export default --every 10 --out /tmp/truth\n"
-      "  contactcheck export bunny-touch --queries --sample 10000");
+      "  contactcheck export bunny-touch --queries --sample 10000 --certificates");
   choose(*exported, line, [arguments, &line] { return export_command(*arguments, line.catalog); });
 }
 

@@ -3,6 +3,7 @@
 
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::cli {
 
@@ -24,21 +25,38 @@ void add_queries(CommandLine& line) {
       ->allow_extra_args(false)
       ->type_name("FILE");
   queries
-      ->add_option("--detector", arguments->detectors,
-                   "exact, root-finder, fcl-intersect or bullet-bernstein (default: all)")
+      ->add_option(
+          "--detector", arguments->detectors,
+          text::joined(line.catalog.impact_detectors(), [](const auto& d) { return d.id; }) +
+              " or FILE.so, a plug-in (default: all of this program)")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  add_commands(*queries, arguments->commands);
+  queries
+      ->add_option("--cap", arguments->cap.absolute,
+                   "largest tolerance that counts as near (default: as declared)")
+      ->check(number_in(0, 1e300, "0 to 1e300"))
+      ->type_name("METRES");
+  queries
+      ->add_option("--cap-of-start", arguments->cap.of_start,
+                   "the same, as a share of the distance at the start")
+      ->check(number_in(0, 1e300, "0 to 1e300"))
+      ->type_name("SHARE");
+  add_limits(*queries, arguments->call_limit, arguments->memory_limit_mib);
   queries->add_option("--out", arguments->out, "folder of queries.json (default out)")
       ->type_name("DIR");
   queries->footer(
-      "Early and late: of the time of contact, as fractions of the step. A detector in single\n"
-      "precision is judged twice: on the doubles, and on what it was fed. \"ok\" in a row of a\n"
-      "family: no error, and times right within 1e-6.\n"
+      "Early and late: of the time of contact, as fractions of the step. Near: no contact, but\n"
+      "within the detector's own tolerance. A detector in single precision is judged twice: on\n"
+      "the doubles, and on what it was fed. \"ok\" in a row of a family: no error, and times "
+      "right\n"
+      "within 1e-6.\n"
       "Examples:\n"
       "  contactcheck queries vertex-face/data_0.csv\n"
       "  contactcheck queries --families\n"
-      "  contactcheck queries 326vf.csv --truth 326vf_mma_bool.json --detector exact");
-  choose(*queries, line, [arguments] { return queries_command(*arguments); });
+      "  contactcheck queries 326vf.csv --truth 326vf_mma_bool.json --detector exact\n"
+      "  contactcheck queries vf.csv --detector ./libmine.so:tolerance=1e-6");
+  choose(*queries, line, [arguments, &line] { return queries_command(*arguments, line.catalog); });
 }
 
 }  // namespace contactcheck::cli

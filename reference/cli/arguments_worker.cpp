@@ -3,6 +3,8 @@
 
 #include "reference/cli/arguments.h"
 #include "reference/plugin/examination.h"
+#include "reference/plugin/plugin.h"
+#include "reference/queries/query_worker.h"
 #include "reference/reduce/probe_worker.h"
 #include "reference/suite/worker.h"
 
@@ -60,12 +62,25 @@ void add_examine(CommandLine& line) {
   });
 }
 
+void add_query_worker(CommandLine& line) {
+  const auto words = std::make_shared<ProbeWords>();
+  CLI::App* worker = line.app.add_subcommand("query-worker", "")->group("");
+  worker->add_option("detector", words->detector)->required();
+  worker->add_option("--page-fd", words->fd)->required();
+  worker->add_option("--plugin", words->plugins)->allow_extra_args(false);
+  choose(*worker, line, [words, &line] {
+    return queries::run_query_worker(words->detector,
+                                     plugin::with_plugins(line.catalog, words->plugins), words->fd);
+  });
+}
+
 }  // namespace
 
 void add_workers(CommandLine& line) {
   add_worker(line);
   add_probe(line);
   add_examine(line);
+  add_query_worker(line);
 }
 
 }  // namespace contactcheck::cli

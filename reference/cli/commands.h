@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/detect/registry.h"
+#include "reference/queries/query_judge.h"
 #include "reference/queries/scene_queries.h"
 #include "reference/results/results.h"
 #include "reference/scene/frame_files.h"
@@ -118,14 +119,19 @@ struct QueriesArguments {
   bool families = false;                      ///< the hard families of this program instead
   std::vector<std::filesystem::path> truths;  ///< none, or one a file
   std::string kind;  ///< "vertex-face" or "edge-edge"; empty: as names and folders say
-  std::vector<std::string> detectors;  ///< names; empty: all
+  std::vector<std::string> detectors;     ///< names and libraries; none, and no commands: all
+  std::vector<std::string> commands;      ///< detectors that run as processes, over pipes
+  ImpactTolerance cap = queries::kNoCap;  ///< of what detectors tolerate
+  double call_limit = suite::RunSettings{}.call_limit;  ///< seconds
+  std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
   std::filesystem::path out = "out";
 };
 
 /// Which frames have contacts that are not allowed; 1 when one has.
 int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog);
-/// Judges detectors of elementary impacts on query files; 3 when one reports a time that is none.
-int queries_command(const QueriesArguments& arguments);
+/// Judges detectors of elementary impacts on query files; 3 when one fails or reports a time that
+/// is none.
+int queries_command(const QueriesArguments& arguments, const DetectorCatalog& catalog);
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets), in closed loop too, and compares it with the paper's
 /// tables.

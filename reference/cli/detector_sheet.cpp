@@ -82,6 +82,21 @@ void add_semantics(const Semantics& s, Sheet& sheet) {
   sheet.line("depth", name_of(s.depth));
 }
 
+void add_impacts(const std::vector<ImpactKind>& kinds, Precision precision, Sheet& sheet) {
+  sheet.line("queries", join(kinds, [](ImpactKind kind) { return name_of(kind); }) + ", in " +
+                            name_of(precision) + " precision");
+}
+
+std::string tolerance_text(const ImpactTolerance& tolerance) {
+  if (tolerance.absolute == 0 && tolerance.of_start == 0) return "none";
+  std::string text;
+  if (tolerance.absolute > 0) text = number_text(tolerance.absolute) + " m";
+  if (tolerance.of_start > 0)
+    text += (text.empty() ? "" : " or ") + number_text(tolerance.of_start) +
+            " of the distance at the start";
+  return text;
+}
+
 std::string allowed_text(const OptionInfo& o) {
   if (!o.choices.empty())
     return join(
@@ -131,15 +146,32 @@ std::string detector_sheet(const DetectorInfo& info, const DetectorSpec& spec, s
   return sheet.text();
 }
 
-std::string plugin_sheet(const plugin::Plugin& plugin, const DetectorInfo& info,
+std::string plugin_sheet(const plugin::Plugin& plugin, const std::vector<OptionInfo>& options,
                          const DetectorSpec& spec, std::size_t width) {
   const plugin::Declaration& declaration = plugin.declaration;
   Sheet sheet(width);
   sheet.title(spec.name, declaration.summary);
   sheet.whole("from", plugin::described(plugin.source));
   sheet.line("version", declaration.version);
-  add_semantics(declaration.semantics, sheet);
-  sheet.line("given", needs_text(declaration));
+  if (declaration.answers_frames()) {
+    add_semantics(declaration.semantics, sheet);
+    sheet.line("given", needs_text(declaration));
+  }
+  if (declaration.impacts) {
+    const plugin::ImpactClaims& claims = *declaration.impacts;
+    add_impacts(claims.kinds, claims.precision, sheet);
+    sheet.line("tolerance", tolerance_text(claims.tolerance));
+  }
+  add_options(options, spec.options, sheet);
+  return sheet.text();
+}
+
+std::string impact_sheet(const ImpactDetectorInfo& info, const DetectorSpec& spec,
+                         std::size_t width) {
+  Sheet sheet(width);
+  sheet.title(spec.name, info.summary);
+  add_impacts(info.kinds, info.precision, sheet);
+  sheet.line("tolerance", tolerance_text(info.make(spec.options)->tolerance()));
   add_options(info.options, spec.options, sheet);
   return sheet.text();
 }

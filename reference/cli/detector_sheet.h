@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "core/detect/registry.h"
 #include "reference/plugin/plugin.h"
@@ -18,8 +19,12 @@ std::string detector_sheet(const DetectorInfo& info, const DetectorSpec& spec, s
 
 /// The same of a detector from outside, with where it comes from, its version and what it is given,
 /// as it declared them with its options at their defaults: nothing of it is loaded or started.
-/// `info`: its entry in the catalogue.
-std::string plugin_sheet(const plugin::Plugin& plugin, const DetectorInfo& info,
+/// `options`: as its entry in the catalogue has them.
+std::string plugin_sheet(const plugin::Plugin& plugin, const std::vector<OptionInfo>& options,
                          const DetectorSpec& spec, std::size_t width);
+
+/// Of a detector of queries of moving elements.
+std::string impact_sheet(const ImpactDetectorInfo& info, const DetectorSpec& spec,
+                         std::size_t width);
 
 }  // namespace contactcheck::cli

@@ -80,11 +80,14 @@ void print_summary(const fs::path& folder, const judge::ExportSummary& summary) 
   std::fflush(stdout);
 }
 
-void print_queries(const fs::path& file, const queries::ExportedQueries& counts) {
+void print_queries(const fs::path& file, const queries::ExportedQueries& counts,
+                   bool certificates) {
   std::printf("%s: %s", file.c_str(), text::counted(counts.written, "query", "queries").c_str());
   if (counts.written < counts.found) std::printf(" of %zu", counts.found);
-  std::printf(", %s (%zu at the start)\n", text::counted(counts.contacts, "contact").c_str(),
+  std::printf(", %s (%zu at the start)", text::counted(counts.contacts, "contact").c_str(),
               counts.starts_in_contact);
+  if (certificates) std::printf(", %zu without proof", counts.written - counts.proved);
+  std::printf("\n");
   std::fflush(stdout);
 }
 
@@ -107,11 +110,13 @@ int export_command(const ExportArguments& arguments, const DetectorCatalog& cata
     if (arguments.queries) {
       const auto write = [&](const fs::path& made) {
         fs::create_directories(made);
+        if (arguments.sample.certificates) judge::write_check_script(made);
         return queries::export_queries(scene, arguments.sample, made, look);
       };
       const queries::QueryExport summary = export_whole(scene.id, arguments.out, write);
-      print_queries(folder / "vertex-face.csv", summary.vertex_face);
-      print_queries(folder / "edge-edge.csv", summary.edge_edge);
+      const bool proofs = arguments.sample.certificates;
+      print_queries(folder / "vertex-face.csv", summary.vertex_face, proofs);
+      print_queries(folder / "edge-edge.csv", summary.edge_edge, proofs);
     } else {
       const auto write = [&](const fs::path& made) {
         return judge::export_scene(scene, arguments.every, made, look);
@@ -122,7 +127,7 @@ int export_command(const ExportArguments& arguments, const DetectorCatalog& cata
   if (arguments.queries)
     std::printf("to judge detectors on them: contactcheck queries %s/SCENE/*.csv\n",
                 arguments.out.c_str());
-  else
+  if (!arguments.queries || arguments.sample.certificates)
     std::printf("to check them: python3 %s/SCENE/check.py\n", arguments.out.c_str());
   return 0;
 }

@@ -46,6 +46,9 @@ void print_lines(const DetectorCatalog& catalog) {
         info.absent_because.empty() ? "" : " [absent: " + info.absent_because + "]";
     print_entry(info.id, info.summary + note);
   }
+  std::printf("\nDetectors of queries (contactcheck queries)\n");
+  for (const ImpactDetectorInfo& info : catalog.impact_detectors())
+    print_entry(info.id, info.summary);
 }
 
 std::size_t sheet_width() {
@@ -57,14 +60,28 @@ void print_sheets(const DetectorCatalog& catalog) {
   std::printf("Detectors (ID[:option=value,...]; everything as with the default options)\n");
   for (const DetectorInfo& info : catalog.all())
     std::printf("\n%s", detector_sheet(info, sheet_width()).c_str());
+  std::printf("\nDetectors of queries (contactcheck queries)\n");
+  for (const ImpactDetectorInfo& info : catalog.impact_detectors())
+    std::printf("\n%s", impact_sheet(info, catalog.parse_impact(info.id), sheet_width()).c_str());
 }
 
 // One from outside stands in the catalogue too, but what that holds would load or start it here.
 std::string sheet_of(const DetectorSpec& spec, const OwnDetectors& own) {
-  const DetectorInfo& info = *own.catalog.find(spec.id);
+  const DetectorInfo* const info = own.catalog.find(spec.id);
+  const ImpactDetectorInfo* const impacts = own.catalog.find_impact(spec.id);
   for (const plugin::Plugin& plugin : own.plugins)
-    if (plugin.declaration.id == spec.id) return plugin_sheet(plugin, info, spec, sheet_width());
-  return detector_sheet(info, spec, sheet_width());
+    if (plugin.declaration.id == spec.id)
+      return plugin_sheet(plugin, info != nullptr ? info->options : impacts->options, spec,
+                          sheet_width());
+  return info != nullptr ? detector_sheet(*info, spec, sheet_width())
+                         : impact_sheet(*impacts, spec, sheet_width());
+}
+
+// Of frames, or of queries alone.
+DetectorSpec parse_any(const DetectorCatalog& catalog, const std::string& name) {
+  const std::string id = name.substr(0, name.find(':'));
+  const bool queries_alone = catalog.find(id) == nullptr && catalog.find_impact(id) != nullptr;
+  return queries_alone ? catalog.parse_impact(name) : catalog.parse(name);
 }
 
 // Everything is looked up before anything is printed; what is named twice is printed once.
@@ -74,7 +91,7 @@ void print_named(const ListArguments& arguments, const DetectorCatalog& catalog)
   std::set<std::string> names;
   std::vector<std::string> sheets;
   for (const std::string& name : own.names)
-    if (const DetectorSpec spec = own.catalog.parse(name); names.insert(spec.name).second)
+    if (const DetectorSpec spec = parse_any(own.catalog, name); names.insert(spec.name).second)
       sheets.push_back(sheet_of(spec, own));
   std::printf(
       "Detectors (with the options that were given; what libraries and commands claim as with "

@@ -100,7 +100,7 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
 
 // A worker's streams are its supervisor's to look after.
 bool is_worker(int argc, char** argv) {
-  constexpr const char* kHidden[] = {"worker", "probe", "examine"};
+  constexpr const char* kHidden[] = {"worker", "probe", "examine", "query-worker"};
   return argc > 1 && std::any_of(std::begin(kHidden), std::end(kHidden),
                                  [&](const char* name) { return std::strcmp(argv[1], name) == 0; });
 }

@@ -4,31 +4,48 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
-#include "reference/adapters/register.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/own_detectors.h"
 #include "reference/process/exit_codes.h"
 #include "reference/queries/query_judge.h"
+#include "reference/queries/query_pictures.h"
 #include "reference/queries/query_report.h"
-#include "reference/text/lists.h"
+#include "reference/queries/query_worker.h"
 
 namespace contactcheck::cli {
 namespace {
 
-std::vector<ImpactDetectorInfo> chosen_detectors(const std::vector<std::string>& names) {
-  const std::vector<ImpactDetectorInfo> all = adapters::standard_impact_detectors();
-  if (names.empty()) return all;
-  std::vector<ImpactDetectorInfo> chosen;
-  for (const std::string& name : names) {
-    const auto named = [&](const ImpactDetectorInfo& info) { return info.name == name; };
-    const auto found = std::find_if(all.begin(), all.end(), named);
-    if (found == all.end())
-      throw InputError("no detector of queries is named \"" + name + "\"; there are " +
-                       text::joined(all, [](const ImpactDetectorInfo& info) { return info.name; }));
-    if (std::none_of(chosen.begin(), chosen.end(), named)) chosen.push_back(*found);
+queries::QueryDetector detector_of(const std::string& name, const OwnDetectors& own,
+                                   const QueriesArguments& arguments) {
+  const DetectorSpec spec = own.catalog.parse_impact(name);
+  const ImpactDetectorInfo& info = *own.catalog.find_impact(spec.id);
+  for (const plugin::Plugin& plugin : own.plugins)
+    if (plugin.declaration.id == spec.id)
+      return queries::worker_detector(info, spec, plugin::to_json(plugin).dump(),
+                                      std::filesystem::read_symlink("/proc/self/exe"),
+                                      {arguments.call_limit, arguments.memory_limit_mib << 20});
+  return queries::local_detector(info, spec);
+}
+
+/// Those that are named, each once; without any all of this program.
+std::vector<queries::QueryDetector> chosen_detectors(const QueriesArguments& arguments,
+                                                     const DetectorCatalog& catalog) {
+  suite::RunSettings limits;
+  limits.call_limit = arguments.call_limit;
+  limits.memory_limit = arguments.memory_limit_mib << 20;
+  OwnDetectors own = load_own_detectors(arguments.detectors, arguments.commands, limits, catalog);
+  if (own.names.empty())
+    for (const ImpactDetectorInfo& info : catalog.impact_detectors()) own.names.push_back(info.id);
+  std::vector<queries::QueryDetector> chosen;
+  for (const std::string& name : own.names) {
+    queries::QueryDetector detector = detector_of(name, own, arguments);
+    if (std::ranges::none_of(chosen, [&](const auto& c) { return c.name == detector.name; }))
+      chosen.push_back(std::move(detector));
   }
   return chosen;
 }
@@ -76,20 +93,37 @@ void check_files(const std::vector<queries::QueryTargets>& targets) {
   }
 }
 
+/// Prints what is found as it is found, and keeps it for the report.
+class Printed {
+ public:
+  void add(const std::string& part) {
+    const std::string lines = (text_.empty() ? "" : "\n") + part;
+    std::fputs(lines.c_str(), stdout);
+    std::fflush(stdout);
+    text_ += lines;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
 std::vector<queries::FileScore> judge_files(const QueriesArguments& arguments,
-                                            const std::vector<ImpactDetectorInfo>& detectors) {
+                                            const std::vector<queries::QueryDetector>& detectors,
+                                            Printed& printed) {
   std::vector<queries::FileScore> scores;
   const std::vector<queries::QueryTargets> targets = targets_of(arguments);
   check_files(targets);
   for (const queries::QueryTargets& target : targets) {
-    scores.push_back(queries::judge_queries(target, detectors));
-    std::printf("%s%s", scores.size() > 1 ? "\n" : "", queries::text_of(scores.back()).c_str());
-    std::fflush(stdout);
+    scores.push_back(queries::judge_queries(target, detectors, arguments.cap));
+    printed.add(queries::text_of(scores.back()));
   }
   return scores;
 }
 
-std::vector<queries::FileScore> judge_families(const std::vector<ImpactDetectorInfo>& detectors) {
+std::vector<queries::FileScore> judge_families(const QueriesArguments& arguments,
+                                               const std::vector<queries::QueryDetector>& detectors,
+                                               Printed& printed) {
   std::vector<queries::FileScore> all;
   for (const queries::QueryFamily& family : queries::query_families()) {
     std::vector<queries::FileScore> scores;
@@ -103,31 +137,50 @@ std::vector<queries::FileScore> judge_families(const std::vector<ImpactDetectorI
         return true;
       };
       scores.push_back(queries::judge_queries(family.id + "@" + std::to_string(i), family.kind,
-                                              next, detectors));
+                                              next, detectors, arguments.cap));
     }
-    std::printf("%s%s", all.empty() ? "" : "\n", queries::text_of(family, scores).c_str());
-    std::fflush(stdout);
+    printed.add(queries::text_of(family, scores));
     all.insert(all.end(), scores.begin(), scores.end());
   }
+  printed.add(queries::summary_of(queries::query_families(), all));
   return all;
+}
+
+/// queries.md beside its pictures.
+void write_report(const std::filesystem::path& out, const std::vector<queries::FileScore>& scores,
+                  const std::string& text) {
+  std::string report = "# Detectors of moving elements\n\n";
+  for (const auto& [name, picture] :
+       {std::pair{"queries-times.svg", queries::time_error_picture(scores)},
+        {"queries-cost.svg", queries::cost_picture(scores)}}) {
+    std::error_code ignored;
+    std::filesystem::remove(out / name, ignored);  // of another run
+    if (picture.empty()) continue;
+    write_file_atomically(out / name, picture);
+    report += std::string("![](") + name + ")\n\n";
+  }
+  write_file_atomically(out / "queries.md", report + "```text\n" + text + "```\n");
+  write_file_atomically(out / "queries.json", queries::json_of(scores));
+  std::printf("\n%s\n", (out / "queries.md").c_str());
 }
 
 }  // namespace
 
-int queries_command(const QueriesArguments& arguments) {
+int queries_command(const QueriesArguments& arguments, const DetectorCatalog& catalog) {
   if (arguments.families != arguments.files.empty())
     throw InputError("queries judges files, or with --families its own hard families: one of both");
-  const std::vector<ImpactDetectorInfo> detectors = chosen_detectors(arguments.detectors);
+  const std::vector<queries::QueryDetector> detectors = chosen_detectors(arguments, catalog);
   check_place(arguments.out);
-  const std::vector<queries::FileScore> scores =
-      arguments.families ? judge_families(detectors) : judge_files(arguments, detectors);
+  Printed printed;
+  const std::vector<queries::FileScore> scores = arguments.families
+                                                     ? judge_families(arguments, detectors, printed)
+                                                     : judge_files(arguments, detectors, printed);
   const bool errors = std::any_of(scores.begin(), scores.end(), [](const auto& score) {
     return std::any_of(score.detectors.begin(), score.detectors.end(),
-                       [](const auto& detector) { return detector.errors > 0; });
+                       [](const auto& d) { return d.errors > 0 || !d.failure.empty(); });
   });
   check_out(arguments.out);
-  write_file_atomically(arguments.out / "queries.json", queries::json_of(scores));
-  std::printf("\n%s\n", (arguments.out / "queries.json").c_str());
+  write_report(arguments.out, scores, printed.text());
   return errors ? process::kExitUnlistedError : 0;
 }
 

@@ -27,6 +27,25 @@ truth/frame_N.json     "contacts": [body, body, triangle, triangle, weights, wei
       d       they have the same vertices: not asked
 Not certified: containment, vertices inside, cells, margins, lengths and depths, which vertices are
 welded, nor that the vertices are what the scene's lattices make of its meshes.
+
+An export with --queries --certificates is checked likewise: whether two moving elements meet.
+queries.json           counts, and the CRC-32 of every file below
+KIND.csv               eight lines a query: its four points at t = 0, then at t = 1, as
+    x_num,x_den,y_num,y_den,z_num,z_den,truth. Points move straight. KIND is vertex-face (vertex;
+    three corners of a triangle) or edge-edge (two ends; two ends): a first and a second element.
+KIND.certificates.jsonl  a line a query: its proof; or null: there is none, which is counted
+    "apart": pieces of the step, [end, reason, ...], each from where the one before it ends, the
+    first from t = 0. Throughout a piece the elements have no common point:
+      "volume"              the four points are not in one plane
+      "side", axis, i, j    in the projection along the axis, all points of one element are on one
+                            side of the line through points i and j, which are of the other
+                            element, and no point of that is on this side
+      "direction", x, y, z  is larger along the points of the first element than of the second
+    No contact: the pieces end at t = 1. Contact: it is first at most 2^-40 after the last piece:
+    "crosses": [start, end, axis]: within these times the points come to be in one plane, and
+        whenever they are, the elements have a common point, which the projection shows
+    "meets": [time, weights]: the point of both elements then, as the weighted sum of the points of
+        either; [x, y] is x + y * sqrt(root), where "meets" is [time, weights, root]
 """
 import json, math, pathlib, struct, sys, zlib  # noqa: E401
 from fractions import Fraction
@@ -39,6 +58,10 @@ element face {triangles}\nproperty list uchar int vertex_indices"""
 
 class Wrong(Exception):
     pass
+
+
+# What the code below raises when a file is not as exports are written.
+NOT_AS_WRITTEN = ArithmeticError, AttributeError, LookupError, TypeError, ValueError
 
 
 def require(condition, sentence):
@@ -114,11 +137,15 @@ def is_common_point(p, q, weights_p, weights_q):
             all(dot(u, x) * sum(v) == dot(v, y) * sum(u) for x, y in zip(zip(*p), zip(*q))))
 
 
+def number(n):
+    if isinstance(n, str):
+        return Fraction(*(int(part, 16) for part in n.split("/")))
+    return Fraction(n)
+
+
 def separates(p, q, plane):
     p, q, unit = whole_corners(p, q)
-    (*normal, offset), _ = whole([
-        Fraction(*(int(part, 16) for part in n.split("/"))) if isinstance(n, str) else Fraction(n)
-        for n in plane])
+    (*normal, offset), _ = whole([number(n) for n in plane])
     return (len(normal) == 3 and all(dot(normal, corner) <= offset * unit for corner in p) and
             all(dot(normal, corner) > offset * unit for corner in q))
 
@@ -148,9 +175,7 @@ def is_further_point(p, q, weights_p, weights_q, shared):
 
 def separates_at_corner(p, q, plane):
     p, q, unit = whole_corners(p, q)
-    (*normal, offset), _ = whole([
-        Fraction(*(int(part, 16) for part in n.split("/"))) if isinstance(n, str) else Fraction(n)
-        for n in plane])
+    (*normal, offset), _ = whole([number(n) for n in plane])
     of_p, of_q = ([dot(normal, corner) - offset * unit for corner in t] for t in (p, q))
     return (len(normal) == 3 and of_p[0] == of_q[0] == 0 and max(of_p) <= 0 <= min(of_q) and
             (max(of_p[1:]) < 0 or min(of_q[1:]) > 0))
@@ -279,8 +304,7 @@ def check_frame(entry, truth, bodies, own):
         require(not rest, f"{kind} list {next(iter(rest), ())}, which nothing decided to be one")
 
 
-def check_export(folder):
-    require((folder / "scene.json").is_file(), "scene.json is missing: this is no whole export")
+def check_frames(folder):
     index, chained = json.loads((folder / "scene.json").read_bytes()), 0
     require(index["schema"] == "contactcheck-certificates/1", "scene.json: another schema")
     frames, every = index["frames"], index["every"]
@@ -305,6 +329,234 @@ def check_export(folder):
             f"point; {gaps} are separated by a plane, all others by boxes")
 
 
+# --- Queries of moving elements. Below, `first` is the number of points of the first element.
+
+FIRST = {"vertex-face": 1, "edge-edge": 2}
+WIDTH = Fraction(1, 2 ** 40)  # of the interval that holds the first contact, a fraction of the step
+
+
+class Form:
+    """A polynomial on a piece: c[0] (1-s)^n + c[1] (1-s)^(n-1) s + ... + c[n] s^n, where s goes
+    from 0 to 1. The products are not negative, so it has the sign that all of c have."""
+
+    def __init__(self, c):
+        self.c = c
+
+    def __add__(self, other):  # of the same degree, as in all sums below
+        return Form([x + y for x, y in zip(self.c, other.c)])
+
+    def __sub__(self, other):
+        return Form([x - y for x, y in zip(self.c, other.c)])
+
+    def __mul__(self, other):
+        product = [0] * (len(self.c) + len(other.c) - 1)
+        for i, x in enumerate(self.c):
+            for j, y in enumerate(other.c):
+                product[i + j] += x * y
+        return Form(product)
+
+    def positive(self):
+        return min(self.c) > 0
+
+    def negative(self):
+        return max(self.c) < 0
+
+
+class Query:
+    """The places of the points at both ends of the step, times one number that makes integers."""
+
+    def __init__(self, kind, rows):
+        truths, places = set(), []
+        for row in rows:
+            *coordinates, truth = (int(x) for x in row.split(","))
+            require(len(coordinates) == 6, "not six numbers and a truth")
+            places += [Fraction(*coordinates[k:k + 2]) for k in (0, 2, 4)]
+            truths.add(truth)
+        require(truths in ({0}, {1}), "the truth is not 0, nor is it 1, on all its lines")
+        places, _ = whole(places)
+        points = [places[k:k + 3] for k in range(0, 24, 3)]
+        self.start, self.end = points[:4], points[4:]
+        self.first, self.contact = FIRST[kind], truths == {1}
+
+    def at(self, time, unit):
+        """The points at a time, times a number that makes it an integer."""
+        k = time.numerator * (unit // time.denominator)
+        return [[x * unit + (y - x) * k for x, y in zip(*p)] for p in zip(self.start, self.end)]
+
+    def between(self, start, end):
+        """The points as forms on a piece, times a positive number."""
+        unit = math.lcm(start.denominator, end.denominator)
+        return [[Form(c) for c in zip(*p)] for p in zip(self.at(start, unit), self.at(end, unit))]
+
+
+def volume(points):
+    u, v, w = (minus(p, points[0]) for p in points[1:])
+    n = cross(u, v)
+    return n[0] * w[0] + n[1] * w[1] + n[2] * w[2]
+
+
+def is_side(first, points, axis, i, j):
+    own = range(first) if i in range(first) else range(first, 4)
+    require(i in own and j in own and axis in range(3), "no line of one element")
+    line = minus(points[j], points[i])
+    areas = [cross(line, minus(p, points[i]))[axis] for p in points]
+    others = [areas[k] for k in range(4) if k not in own]
+    if all(a.positive() for a in others):
+        return all(max(areas[k].c) <= 0 for k in own)
+    return all(a.negative() for a in others) and all(min(areas[k].c) >= 0 for k in own)
+
+
+def leads(first, points, direction):
+    along = [dot(direction, p) for p in points]
+    return min(along[:first]) > max(along[first:])
+
+
+def are_apart(query, start, end, reason, *rest):
+    """Whether the reason holds from start to end, so that the elements have no common point."""
+    if reason == "volume":
+        f = volume(query.between(start, end))
+        return f.positive() or f.negative()
+    if reason == "side":
+        return is_side(query.first, query.between(start, end), *rest)
+    require(reason == "direction" and len(rest) == 3, "an unknown reason")
+    direction, _ = whole([number(x) for x in rest])
+    # Points move straight: what holds at both ends holds in between.
+    return all(leads(query.first, query.at(t, t.denominator), direction) for t in (start, end))
+
+
+def shares(first, points, axis):
+    """In a projection, the weights of the points at the point that the elements' planes or lines
+    have in common, times the number that comes first. Where that is not 0 and the points are in one
+    plane, the plane does not collapse in the projection: the weights are those of a common point in
+    space. Of a vertex they are for the corners alone."""
+    p = points
+    if first == 1:
+        a, b, c = (minus(x, p[0]) for x in p[1:])
+        weights = [cross(u, v)[axis] for u, v in ((b, c), (c, a), (a, b))]
+        return weights[0] + weights[1] + weights[2], weights
+    one, other, between = minus(p[1], p[0]), minus(p[3], p[2]), minus(p[2], p[0])
+    total, s, t = (cross(u, v)[axis] for u, v in ((one, other), (between, other), (between, one)))
+    return total, [total - s, s, total - t, t]
+
+
+def do_cross(query, reached, start, end, axis):
+    """The volume changes its sign, so it is 0 in between; the weights are never negative."""
+    start, end = number(start), number(end)
+    if not reached <= start < end <= min(1, reached + WIDTH) or axis not in range(3):
+        return False
+    points = query.between(start, end)
+    f, (total, weights) = volume(points), shares(query.first, points, axis)
+    if f.c[0] * f.c[-1] >= 0:
+        return False
+    if total.positive():
+        return all(min(w.c) >= 0 for w in weights)
+    return total.negative() and all(max(w.c) <= 0 for w in weights)
+
+
+class Surd:
+    """x + y * sqrt(root)"""
+
+    def __init__(self, n, root):
+        self.x, self.y = (number(k) for k in (n if isinstance(n, list) else (n, 0)))
+        self.root = root
+
+    def __add__(self, other):
+        return Surd([self.x + other.x, self.y + other.y], self.root)
+
+    def __sub__(self, other):
+        return Surd([self.x - other.x, self.y - other.y], self.root)
+
+    def __mul__(self, other):
+        return Surd([self.x * other.x + self.y * other.y * self.root,
+                     self.x * other.y + self.y * other.x], self.root)
+
+    def sign(self):
+        # x > -y sqrt(root) where x |x| > -y |y| root, as u |u| grows with u.
+        value = self.x * abs(self.x) + self.y * abs(self.y) * self.root
+        return (value > 0) - (value < 0)
+
+
+def do_meet(query, reached, time, weights, root=0):
+    root = number(root)
+    require(root >= 0 and len(weights) == 4, "no time and four weights")
+
+    def surd(n):
+        return Surd(n, root)
+
+    def total(values):
+        return sum(values, start=surd(0))
+
+    time, weights = surd(time), [surd(w) for w in weights]
+    if (time - surd(reached)).sign() < 0 or (surd(min(1, reached + WIDTH)) - time).sign() < 0:
+        return False
+    if any(w.sign() < 0 for w in weights):
+        return False
+    points = [[surd(x) + surd(y - x) * time for x, y in zip(*p)]
+              for p in zip(query.start, query.end)]
+    parts = [[surd(1), *p] for p in points]  # the 1: the weights of both elements add up to 1
+    parts = [[w * x for x in part] for w, part in zip(weights, parts)]
+    one, other = ([total(x) for x in zip(*group)]
+                  for group in (parts[:query.first], parts[query.first:]))
+    return (one[0] - surd(1)).sign() == 0 and all((x - y).sign() == 0 for x, y in zip(one, other))
+
+
+def prove_query(query, proof):
+    """Raises Wrong unless the proof holds and is one of the query's truth."""
+    reached = Fraction(0)
+    for end, *reason in proof["apart"]:
+        end = number(end)
+        require(reached < end <= 1, "the pieces do not follow one another in the step")
+        require(are_apart(query, reached, end, *reason),
+                f"the elements are not proven apart up to t = {float(end)}")
+        reached = end
+    contacts = [key for key in ("crosses", "meets") if key in proof]
+    require(len(contacts) == query.contact,
+            f"the truth is {int(query.contact)}, the proof's is not")
+    if not contacts:
+        require(reached == 1, f"the pieces end at t = {float(reached)}")
+    elif contacts == ["crosses"]:
+        require(do_cross(query, reached, *proof["crosses"]), "the elements are not proven to cross")
+    else:
+        require(do_meet(query, reached, *proof["meets"]), "the elements are not proven to meet")
+
+
+def check_kind(folder, index, kind):
+    name, proofs = f"{kind}.csv", f"{kind}.certificates.jsonl"
+    rows, lines = (read(folder, index, x).decode().splitlines() for x in (name, proofs))
+    require(len(rows) == 8 * len(lines), f"{proofs} has not one line for eight of {name}")
+    apart = contacts = unproved = 0
+    for n, line in enumerate(lines):
+        try:
+            query, proof = Query(kind, rows[8 * n:8 * n + 8]), json.loads(line)
+            if proof is None:
+                unproved += 1
+                continue
+            prove_query(query, proof)
+        except (Wrong, *NOT_AS_WRITTEN) as wrong:
+            what = wrong if isinstance(wrong, Wrong) else f"{type(wrong).__name__}: {wrong}"
+            raise Wrong(f"{name}, line {8 * n + 1}; {proofs}, line {n + 1}: {what}") from None
+        contacts += query.contact
+        apart += not query.contact
+    counts = index[kind.replace("-", "_")]
+    require((apart + contacts, unproved) == (counts["proved"], counts["unproved"]),
+            f"queries.json has other counts of proofs of {kind}")
+    return f"{kind}: {contacts} contacts proven, {apart} proven apart, {unproved} without proof"
+
+
+def check_queries(folder):
+    index = json.loads((folder / "queries.json").read_bytes())
+    require(index["schema"] == "contactcheck-query-export/1", "queries.json: another schema")
+    require(index.get("certificates"), "there is nothing to check: exported without --certificates")
+    return f"{index['scene']}: " + "; ".join(check_kind(folder, index, kind) for kind in FIRST)
+
+
+def check_export(folder):
+    if (folder / "queries.json").is_file():
+        return check_queries(folder)
+    require((folder / "scene.json").is_file(), "scene.json is missing: this is no whole export")
+    return check_frames(folder)
+
+
 if __name__ == "__main__":
     if {"-h", "--help"} & set(sys.argv[1:]):
         sys.exit(print(__doc__))
@@ -313,5 +565,5 @@ if __name__ == "__main__":
             print(check_export(pathlib.Path(place)), flush=True)
         except Wrong as wrong:
             sys.exit(f"{place}: {wrong}")
-        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        except NOT_AS_WRITTEN as error:
             sys.exit(f"{place}: not as exports are written: {type(error).__name__}: {error}")

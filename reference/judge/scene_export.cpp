@@ -169,7 +169,7 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
             Json(body.shape->given.numbered(body.shape->welded)).dump() + "\n");
     write(body_folder + "/order.json", Json(certifier.order(b)).dump() + "\n");
   }
-  write_file_atomically(folder / "check.py", kCheckScript);
+  write_check_script(folder);
 
   for (std::size_t f = 0; f < scene.frames; f += every) {
     before_frame();
@@ -219,6 +219,10 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
                       {"crc32", checksums}};
   write_file_atomically(folder / kIndex, index.dump(1) + "\n");
   return summary;
+}
+
+void write_check_script(const fs::path& folder) {
+  write_file_atomically(folder / "check.py", kCheckScript);
 }
 
 bool is_export(const fs::path& folder) {

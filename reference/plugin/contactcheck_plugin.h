@@ -2,6 +2,7 @@
  *
  *     contactcheck run --detector ./libmine.so
  *     contactcheck run --detector ./libmine.so:leaf=8
+ *     contactcheck queries vf.csv --detector ./libmine.so
  *
  * This header is all that a plug-in needs; it is plain C11 and C++. A plug-in is a shared library
  * that exports contactcheck_plugin_entry(), which gives a table of functions. README.md beside this
@@ -13,7 +14,8 @@
  *   destroy(); a frame and its arrays until the next update().
  * - Calls of one detector come one at a time, in the order create, declare, prepare, declare, then
  *   per frame update and one or several query; frames come in any order and repeat. An answer may
- *   not depend on frames before it.
+ *   not depend on frames before it. A detector that is asked about moving elements gets create,
+ *   declare_impacts, then impact as often as wanted; nothing else.
  * - The plug-in runs in a worker process: a crash, a hang or a memory limit ends its own row, no
  *   other.
  */
@@ -32,7 +34,7 @@ extern "C" {
 /* Grows with every change of this header. What an earlier version has stays where it is, and the
  * table grows at its end: a library that was built with an earlier version, without what is said to
  * be there since a later one, is loaded as before; one of a version yet to come is refused. */
-#define CONTACTCHECK_PLUGIN_ABI 3u
+#define CONTACTCHECK_PLUGIN_ABI 4u
 
 /* What a function gives back. With anything but OK it should have put a sentence (UTF-8, ended by
  * a zero byte) into `message`, which has room for CONTACTCHECK_MESSAGE_SIZE bytes. */
@@ -245,6 +247,97 @@ typedef struct contactcheck_counts {
   void (*add)(void* host, const char* name, uint64_t value);
 } contactcheck_counts;
 
+/* ---- contact between frames (since version 4) -------------------------------------------- */
+
+/* Every point moves straight, at constant speed, from its place at t = 0 to that at t = 1: t is a
+ * fraction of the step. Elements are closed, so touching counts; a degenerate triangle or edge is
+ * the segment or the point that it is at that time. */
+
+/* Kinds of elements that may meet, as bits. */
+enum { CONTACTCHECK_VERTEX_FACE = 1 << 0, CONTACTCHECK_EDGE_EDGE = 1 << 1 };
+
+/* Levels of contact within a step, as bits. */
+enum {
+  CONTACTCHECK_IMPACT_VERTEX_FACE = 1 << 0,      /* a vertex and a triangle of two bodies */
+  CONTACTCHECK_IMPACT_EDGE_EDGE = 1 << 1,        /* an edge of each of two bodies */
+  CONTACTCHECK_IMPACT_TRIANGLE = 1 << 2,         /* triangles of two bodies */
+  CONTACTCHECK_IMPACT_BODY = 1 << 3,             /* bodies whose surfaces meet */
+  CONTACTCHECK_IMPACT_SELF_VERTEX_FACE = 1 << 4, /* of one body, without a common vertex */
+  CONTACTCHECK_IMPACT_SELF_EDGE_EDGE = 1 << 5
+};
+
+/* What is claimed about moving elements. The host hands it over zeroed. The tolerance is what the
+ * detector calls contact although nothing meets: elements that come as near as the larger of
+ * `tolerance` and `tolerance_of_start` times their distance at t = 0. A report within it is counted
+ * apart from spurious ones. */
+typedef struct contactcheck_impact_semantics {
+  uint32_t kinds;     /* bits of the kinds that impact() answers; 0: none */
+  uint32_t levels;    /* bits of the levels that step() reports; 0: none */
+  uint32_t precision; /* CONTACTCHECK_DOUBLE or _SINGLE: floats of the coordinates */
+  uint32_t reserved;
+  double tolerance;          /* metres */
+  double tolerance_of_start; /* a factor */
+} contactcheck_impact_semantics;
+
+/* One vertex and one triangle (vertex first), or two edges (one after the other): four points. */
+typedef struct contactcheck_impact_query {
+  uint32_t kind; /* one of the bits */
+  uint32_t reserved;
+  double start[12]; /* at t = 0; x, y, z of the four points */
+  double end[12];   /* at t = 1 */
+} contactcheck_impact_query;
+
+/* What a report has beside the contact, as bits. */
+enum { CONTACTCHECK_HAS_TIME = 1 << 0, CONTACTCHECK_HAS_TOLERANCE = 1 << 1 };
+
+/* The host hands it over zeroed: no contact. */
+typedef struct contactcheck_impact {
+  uint32_t contact; /* 1: they meet at some t in [0, 1] */
+  uint32_t has;     /* bits */
+  double time;      /* with HAS_TIME: of the first contact, in [0, 1] */
+  double tolerance; /* with HAS_TOLERANCE: that of this report in metres, instead of the declared */
+} contactcheck_impact;
+
+/* All bodies over a step. The arrays live until step() returns. */
+typedef struct contactcheck_step {
+  uint64_t index; /* of the frame at t = 0 */
+  double start_time, end_time;
+  uint32_t body_count;
+  uint32_t reserved;
+  const contactcheck_body_state* start;
+  const contactcheck_body_state* end;
+} contactcheck_step;
+
+typedef struct contactcheck_body_impact {
+  contactcheck_body_pair bodies;
+  contactcheck_impact impact;
+} contactcheck_body_impact;
+
+typedef struct contactcheck_triangle_impact {
+  contactcheck_element_pair triangles;
+  contactcheck_impact impact;
+} contactcheck_triangle_impact;
+
+typedef struct contactcheck_vertex_face_impact {
+  contactcheck_near_pair where;
+  contactcheck_impact impact;
+} contactcheck_vertex_face_impact;
+
+typedef struct contactcheck_edge_edge_impact {
+  uint32_t body_a, body_b;
+  uint32_t a[2], b[2]; /* vertices of the edges, in either order */
+  contactcheck_impact impact;
+} contactcheck_edge_edge_impact;
+
+/* Where step() puts its reports; as contactcheck_answer. */
+typedef struct contactcheck_step_answer {
+  void* host;
+  void (*bodies)(void* host, const contactcheck_body_impact* items, size_t count);
+  void (*triangles)(void* host, const contactcheck_triangle_impact* items, size_t count);
+  void (*vertex_faces)(void* host, const contactcheck_vertex_face_impact* items, size_t count);
+  void (*edge_edges)(void* host, const contactcheck_edge_edge_impact* items, size_t count);
+} contactcheck_step_answer;
+
 /* ---- the table --------------------------------------------------------------------------- */
 
 /* Sizes of all structures of version 1 and of the table, in this order; CONTACTCHECK_STRUCT_SIZES
@@ -270,6 +363,19 @@ typedef struct contactcheck_counts {
         (uint32_t)sizeof(contactcheck_counts)                                   \
   }
 
+/* The same of the structures since version 4, for a library that has declare_impacts(). */
+#define CONTACTCHECK_IMPACT_COUNT 9
+#define CONTACTCHECK_IMPACT_SIZES                                                                 \
+  {                                                                                               \
+    (uint32_t)sizeof(contactcheck_impact_semantics), (uint32_t)sizeof(contactcheck_impact_query), \
+        (uint32_t)sizeof(contactcheck_impact), (uint32_t)sizeof(contactcheck_step),               \
+        (uint32_t)sizeof(contactcheck_body_impact),                                               \
+        (uint32_t)sizeof(contactcheck_triangle_impact),                                           \
+        (uint32_t)sizeof(contactcheck_vertex_face_impact),                                        \
+        (uint32_t)sizeof(contactcheck_edge_edge_impact),                                          \
+        (uint32_t)sizeof(contactcheck_step_answer)                                                \
+  }
+
 typedef struct contactcheck_plugin {
   uint32_t abi_version; /* CONTACTCHECK_PLUGIN_ABI */
   uint32_t struct_sizes[CONTACTCHECK_STRUCT_COUNT];
@@ -286,8 +392,9 @@ typedef struct contactcheck_plugin {
                     char* message);
   /* Of what create() made, exactly once; not called where that failed or gave NULL. */
   void (*destroy)(void* detector);
-  /* Says what is claimed; asked after create(), and again after prepare(): a scale, and a margin
-   * with it, may be taken from the bodies. Anything else that has changed is an error. */
+  /* These four are about frames; all are NULL in a detector of moving elements alone (version 4).
+   * declare() says what is claimed; asked after create(), and again after prepare(): a scale, and a
+   * margin with it, may be taken from the bodies. Anything else that has changed is an error. */
   int32_t (*declare)(void* detector, contactcheck_semantics* semantics, char* message);
   int32_t (*prepare)(void* detector, const contactcheck_body* bodies, uint32_t count,
                      char* message);
@@ -306,6 +413,19 @@ typedef struct contactcheck_plugin {
   /* Its own clock: how many milliseconds (up to 1e9) the last update() or query() took; below 0: it
    * has not measured that one. Shown beside the host's times; speed-ups are made of the host's. */
   double (*own_ms)(void* detector);
+
+  /* Since version 4; optional. declare_impacts() says what is claimed about moving elements. */
+  uint32_t impact_sizes[CONTACTCHECK_IMPACT_COUNT]; /* CONTACTCHECK_IMPACT_SIZES */
+  uint32_t reserved_4;
+  int32_t (*declare_impacts)(void* detector, contactcheck_impact_semantics* semantics,
+                             char* message);
+  /* Answers one query, of a kind that was declared. REFUSED: this query alone. */
+  int32_t (*impact)(void* detector, const contactcheck_impact_query* query,
+                    contactcheck_impact* impact, char* message);
+  /* Reports the contacts of prepared bodies within a step, at the levels that were declared; steps
+   * come in any order. This host does not call it yet: it judges scenes at frames. */
+  int32_t (*step)(void* detector, const contactcheck_step* step,
+                  const contactcheck_step_answer* answer, char* message);
 } contactcheck_plugin;
 
 #if defined(_WIN32)

@@ -93,6 +93,15 @@ std::vector<OptionInfo> read_options(const text::JsonField& field) {
   return options;
 }
 
+Json impacts_json(const ImpactClaims& claims) {
+  Json kinds = Json::array();
+  for (const ImpactKind kind : claims.kinds) kinds.push_back(name_of(kind));
+  return {{"kinds", kinds},
+          {"precision", name_of(claims.precision)},
+          {"tolerance", claims.tolerance.absolute},
+          {"tolerance_of_start", claims.tolerance.of_start}};
+}
+
 }  // namespace
 
 Semantics read_semantics(const text::JsonField& field) {
@@ -115,6 +124,19 @@ Semantics read_semantics(const text::JsonField& field) {
   return s;
 }
 
+ImpactClaims read_impact_claims(const text::JsonField& field) {
+  ImpactClaims claims;
+  claims.kinds = named_values(field.at("kinds"), kHeaderKinds);
+  if (field.has("precision"))
+    claims.precision = named_value(field.at("precision"), kHeaderPrecisions);
+  if (field.has("tolerance")) claims.tolerance.absolute = field.at("tolerance").number();
+  if (field.has("tolerance_of_start"))
+    claims.tolerance.of_start = field.at("tolerance_of_start").number();
+  const std::string fault = claims_fault(claims);
+  if (!fault.empty()) field.fail("does not fit together: " + fault);
+  return claims;
+}
+
 Declaration read_declaration(const text::JsonField& field) {
   Declaration out;
   out.id = text::parse_id(field.at("id"));
@@ -128,7 +150,9 @@ Declaration read_declaration(const text::JsonField& field) {
   }
   if (field.has("unisolated")) out.unisolated = field.at("unisolated").boolean();
   if (field.has("transient")) out.transient = field.at("transient").boolean();
-  out.semantics = read_semantics(field.at("semantics"));
+  if (field.has("impacts")) out.impacts = read_impact_claims(field.at("impacts"));
+  // What answers queries of moving elements may answer nothing else.
+  if (!out.impacts || field.has("semantics")) out.semantics = read_semantics(field.at("semantics"));
   return out;
 }
 
@@ -138,14 +162,16 @@ nlohmann::ordered_json to_json(const Declaration& d) {
   if (d.needs_vertices) needs.push_back("vertices");
   if (d.needs_nodes) needs.push_back("nodes");
   semantics["whole_cells"] = d.semantics.whole_cells;  // which results.json does not have
-  return {{"id", d.id},
-          {"summary", d.summary},
-          {"version", d.version},
-          {"options", options},
-          {"needs", needs},
-          {"unisolated", d.unisolated},
-          {"transient", d.transient},
-          {"semantics", semantics}};
+  Json out = {{"id", d.id},
+              {"summary", d.summary},
+              {"version", d.version},
+              {"options", options},
+              {"needs", needs},
+              {"unisolated", d.unisolated},
+              {"transient", d.transient}};
+  if (d.answers_frames()) out["semantics"] = semantics;
+  if (d.impacts) out["impacts"] = impacts_json(*d.impacts);
+  return out;
 }
 
 std::string semantics_fault(const Semantics& s) {
@@ -180,6 +206,15 @@ std::string semantics_fault(const Semantics& s) {
     return "it has a scale and no single precision";
   if (s.local_origin && (s.precision == Precision::kDouble || s.scale != 1.0))
     return "it has a local origin and no single precision at scale 1";
+  return "";
+}
+
+std::string claims_fault(const ImpactClaims& claims) {
+  if (claims.kinds.empty()) return "it answers no kind of queries";
+  if (std::set<ImpactKind>(claims.kinds.begin(), claims.kinds.end()).size() != claims.kinds.size())
+    return "it names a kind twice";
+  for (const double tolerance : {claims.tolerance.absolute, claims.tolerance.of_start})
+    if (!std::isfinite(tolerance) || tolerance < 0.0) return "a tolerance is no number from 0 on";
   return "";
 }
 
@@ -226,6 +261,14 @@ void require_same_claims(const std::string& from, const Semantics& before, const
                 {before.means != now.means, "means"}};
   for (const auto& claim : claims)
     if (claim.changed) refuse_change(from, claim.key);
+}
+
+void require_same_claims(const std::string& from, const ImpactClaims& before,
+                         const ImpactClaims& now) {
+  if (now.kinds != before.kinds)
+    throw InputError(from + " answers other kinds of queries with these options");
+  if (now.precision != before.precision)
+    throw InputError(from + " computes in another precision with these options");
 }
 
 void refuse_change(const std::string& from, const std::string& key) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/detect/registry.h"
 #include "core/types/contact_set.h"
+#include "core/types/impact.h"
 #include "core/types/semantics.h"
 #include "reference/text/json_field.h"
 
@@ -23,13 +25,27 @@ inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision:
 inline constexpr DepthKind kHeaderDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
                                                   DepthKind::kConvexPair};
 
+/// The kinds of elements, in the order of the header's bits.
+inline constexpr ImpactKind kHeaderKinds[] = {ImpactKind::vertex_triangle, ImpactKind::edge_edge};
+
+/// What is claimed about queries of moving elements.
+struct ImpactClaims {
+  std::vector<ImpactKind> kinds;  ///< at least one
+  Precision precision = Precision::kDouble;
+  ImpactTolerance tolerance;
+};
+
 struct Declaration {
   std::string id, summary, version;
   std::vector<OptionInfo> options;
-  Semantics semantics;  ///< with the default options, before prepare
+  /// With the default options, before prepare. Without questions: it answers `impacts` alone.
+  Semantics semantics;
+  std::optional<ImpactClaims> impacts;  ///< with the default options; none: no such queries
   bool needs_vertices = true, needs_nodes = true;
   bool unisolated = false;  ///< it is asked in a process that cannot be ended with it
   bool transient = false;   ///< no later run can reach it: it lives in the caller of this one
+
+  bool answers_frames() const { return !semantics.questions.empty(); }
 };
 
 /// Reads one strictly; README.md beside this header gives its keys. Keys that it does not know are
@@ -37,11 +53,13 @@ struct Declaration {
 /// @throws InputError: one sentence with the document, the place, the value and what is allowed
 Declaration read_declaration(const text::JsonField& field);
 Semantics read_semantics(const text::JsonField& field);
+ImpactClaims read_impact_claims(const text::JsonField& field);
 nlohmann::ordered_json to_json(const Declaration& declaration);
 
 /// What is wrong with it in itself: levels and questions that do not fit together, margins and
 /// scales that cannot be used; "" when nothing is.
 std::string semantics_fault(const Semantics& semantics);
+std::string claims_fault(const ImpactClaims& claims);
 
 /// A plug-in answers the question `self` by pairs of triangles, cells and bodies, and by near
 /// pairs, that name one body twice; here they become what a Detector answers. @throws InputError
@@ -51,6 +69,9 @@ void read_self_answer(const std::string& from, ContactSet& answer);
 /// What is claimed may not depend on the bodies: a margin and a scale alone may be other after
 /// prepare. @throws InputError: `from` and the key that has changed
 void require_same_claims(const std::string& from, const Semantics& before, const Semantics& now);
+/// Of queries the tolerance alone may depend on options.
+void require_same_claims(const std::string& from, const ImpactClaims& before,
+                         const ImpactClaims& now);
 [[noreturn]] void refuse_change(const std::string& from, const std::string& key);
 
 }  // namespace contactcheck::plugin

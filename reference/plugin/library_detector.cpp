@@ -15,6 +15,7 @@
 #include "core/types/semantics.h"
 #include "reference/plugin/contactcheck_plugin.h"
 #include "reference/plugin/declaration.h"
+#include "reference/plugin/library_object.h"
 #include "reference/plugin/library_trace.h"
 #include "reference/plugin/plugin_library.h"
 
@@ -30,23 +31,6 @@ static_assert(std::is_same_v<std::uint32_t, decltype(ElementPair::a)>);
 template <typename Ids>
 const std::uint32_t* flat(const std::vector<Ids>& ids) {
   return ids.empty() ? nullptr : ids.front().data();
-}
-
-template <typename Value, std::size_t N>
-std::vector<Value> values_of(std::uint32_t bits, const Value (&order)[N], const char* what) {
-  std::vector<Value> out;
-  for (std::size_t i = 0; i < N; ++i)
-    if ((bits >> i & 1u) != 0) out.push_back(order[i]);
-  if (bits >> N != 0) throw InputError(std::string("declares ") + what + " that do not exist");
-  return out;
-}
-
-template <typename Value, std::size_t N>
-Value value_of(std::uint32_t number, const Value (&order)[N], const char* what) {
-  if (number >= N)
-    throw InputError(std::string("declares ") + what + " " + std::to_string(number) +
-                     ", which does not exist");
-  return order[number];
 }
 
 constexpr std::size_t kLongestMeaning = 200;  // bytes
@@ -183,8 +167,8 @@ contactcheck_answer answer_into(ContactSet& out) {
 
 class LibraryDetector : public Detector {
  public:
-  LibraryDetector(const PluginLibrary& library, const Options& options) : library_(library) {
-    create(options);
+  LibraryDetector(const PluginLibrary& library, const Options& options)
+      : object_(library, options) {
     declare();
   }
 
@@ -199,8 +183,7 @@ class LibraryDetector : public Detector {
     states_.resize(bodies.size());
     stages_ = {};
     counts_ = {};
-    check(table().prepare(detector_.get(), bodies_.data(), count(bodies_), message_.data()),
-          "prepare");
+    object_.call("prepare", table().prepare, bodies_.data(), count(bodies_));
     declare_again();
   }
 
@@ -210,65 +193,49 @@ class LibraryDetector : public Detector {
       states_[b] = {numbers(frame.bodies[b].nodes),
                     needs_vertices_ ? numbers(frame.bodies[b].vertices) : nullptr};
     const contactcheck_frame own = {frame.index, frame.time, count(states_), 0, states_.data()};
-    check(table().update(detector_.get(), &own, message_.data()), "update");
+    object_.call("update", table().update, &own);
   }
 
   void query(Question question, ContactSet& out) override {
     const contactcheck_answer answer = answer_into(out);
-    check(table().query(detector_.get(), number_of(question), &answer, message_.data()), "query");
-    if (question == Question::kSelf) read_self_answer(library_.name(), out);
+    object_.call("query", table().query, number_of(question), &answer);
+    if (question == Question::kSelf) read_self_answer(object_.name(), out);
   }
 
   StageTrace trace() override {
     if (table().trace == nullptr) return {};
     const contactcheck_trace sink = stages_.sink();
-    check(table().trace(detector_.get(), &sink, message_.data()), "trace");
+    object_.call("trace", table().trace, &sink);
     return stages_.checked(bodies_);
   }
 
   std::vector<Count> counts() override {
     if (table().counts == nullptr) return {};
     const contactcheck_counts sink = counts_.sink();
-    check(table().counts(detector_.get(), &sink, message_.data()), "counts");
+    object_.call("counts", table().counts, &sink);
     return counts_.checked();
   }
 
   std::optional<double> reported_ns() const override {
     if (table().own_ms == nullptr) return std::nullopt;
-    return reported_ns_of(table().own_ms(detector_.get()));
+    return reported_ns_of(table().own_ms(object_.get()));
   }
 
  private:
-  struct Destroy {
-    void (*function)(void*);
-    void operator()(void* detector) const { function(detector); }
-  };
-
-  const contactcheck_plugin& table() const { return library_.table(); }
+  const contactcheck_plugin& table() const { return object_.table(); }
 
   template <typename Items>
   static std::uint32_t count(const Items& items) {
     return static_cast<std::uint32_t>(items.size());
   }
 
-  void create(const Options& options) {
-    std::vector<contactcheck_setting> settings;
-    for (std::uint32_t i = 0; i < table().option_count; ++i) {
-      const char* const name = table().options[i].name;
-      settings.push_back({name, options.at(name).c_str()});
-    }
-    void* made = nullptr;
-    check(table().create(settings.data(), count(settings), &made, message_.data()), "create");
-    detector_ = {made, Destroy{table().destroy}};
-  }
-
   void declare() {
     contactcheck_semantics said = default_semantics();
-    check(table().declare(detector_.get(), &said, message_.data()), "declare");
+    object_.call("declare", table().declare, &said);
     try {
       semantics_ = semantics_of(said);
     } catch (const InputError& e) {
-      throw InputError(library_.name() + " " + e.what());
+      throw InputError(object_.name() + " " + e.what());
     }
     needs_vertices_ = said.needs_vertices != 0;
   }
@@ -277,23 +244,10 @@ class LibraryDetector : public Detector {
     const Semantics before = semantics_;
     const bool needed_vertices = needs_vertices_;
     declare();
-    require_same_claims(library_.name(), before, semantics_);
-    if (needed_vertices != needs_vertices_) refuse_change(library_.name(), "needs_vertices");
+    require_same_claims(object_.name(), before, semantics_);
+    if (needed_vertices != needs_vertices_) refuse_change(object_.name(), "needs_vertices");
   }
 
-  void check(std::int32_t status, const char* function) {
-    message_.back() = '\0';
-    const std::string said = message_.data();
-    message_.front() = '\0';
-    if (status == CONTACTCHECK_OK) return;
-    if (status == CONTACTCHECK_REFUSED && !said.empty()) throw RefusedInput(said);
-    const std::string text = std::string(function) + " failed" + (said.empty() ? "" : ": " + said);
-    if (status == CONTACTCHECK_REFUSED) throw RefusedInput(text);
-    throw std::runtime_error(text);
-  }
-
-  const PluginLibrary library_;
-  std::array<char, CONTACTCHECK_MESSAGE_SIZE> message_ = {};
   Semantics semantics_;
   bool needs_vertices_ = true;
   std::vector<std::unique_ptr<BodyView>> views_;  ///< what bodies_ point into
@@ -301,9 +255,7 @@ class LibraryDetector : public Detector {
   std::vector<contactcheck_body_state> states_;
   TraceCollector stages_;
   CountsCollector counts_;
-  // Last, so that it goes first: destroy() may still read the bodies. A null detector has nothing
-  // to destroy.
-  std::unique_ptr<void, Destroy> detector_{nullptr, Destroy{nullptr}};
+  LibraryObject object_;  ///< last, so that it goes first: destroy() may still read the bodies
 };
 
 }  // namespace

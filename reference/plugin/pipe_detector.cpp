@@ -15,11 +15,11 @@ namespace {
 // that what went wrong is kept as well.
 constexpr std::size_t kLongestShownCommand = 200;
 
-class PipeDetector : public Detector {
+/// A command that has said hello.
+class PipeObject {
  public:
-  PipeDetector(const std::string& command, const Options& options)
+  explicit PipeObject(const std::string& command)
       : name_("command \"" + text::end_of(command, kLongestShownCommand) + "\""),
-        options_(options),
         process_(command) {
     process_.send(hello_message());
     const Reply hello(process_.receive_line(), name_, "hello");
@@ -27,50 +27,22 @@ class PipeDetector : public Detector {
     declaration_ = read_declaration(hello.root());
   }
 
+  /// @throws InputError if it calls itself otherwise than `id`
+  void require_id(const std::string& id) const {
+    if (declaration_.id != id)
+      throw InputError(name_ + " calls itself \"" + declaration_.id +
+                       "\" now; when the run began it was \"" + id + "\"");
+  }
+
   const Declaration& declaration() const { return declaration_; }
+  void change_semantics(const Semantics& now) { declaration_.semantics = now; }
   const std::string& name() const { return name_; }
 
-  const Semantics& semantics() const override { return declaration_.semantics; }
-  bool needs_vertices() const override { return declaration_.needs_vertices; }
-
-  // A scale, and a margin with it, may be taken from the bodies: then it declares anew.
-  void prepare(const std::vector<Body>& bodies) override {
-    or_kill([&] {
-      const Reply ready = ask(prepare_message(bodies, options_), "ready");
-      if (!ready.root().has("semantics")) return;
-      const Semantics now = read_semantics(ready.root().at("semantics"));
-      require_same_claims(name_, declaration_.semantics, now);
-      declaration_.semantics = now;
-    });
-  }
-
-  void update(const Frame& frame) override {
-    or_kill([&] { reported_ns_ = ask(frame_message(frame, declaration_), "done").reported_ns(); });
-  }
-
-  void query(Question question, ContactSet& out) override {
-    or_kill([&] {
-      const Reply contacts = ask(query_message(question), "contacts");
-      check_contact_counts(contacts);
-      read_contacts(contacts, process_.receive(contacts.bytes()), out);
-      if (question == Question::kSelf) read_self_answer(name_, out);
-      reported_ns_ = contacts.reported_ns();
-    });
-  }
-
-  std::optional<double> reported_ns() const override { return reported_ns_; }
-
-  std::vector<std::string> notes() override {
-    const std::string line = process_.first_error_line();
-    if (line.empty()) return {};
-    return {"wrote to standard error: \"" + line + "\""};
-  }
-
- private:
   Reply ask(const std::string& message, const char* reply) {
     process_.send(message);
     return {process_.receive_line(), name_, reply};
   }
+  std::string receive(std::size_t bytes) { return process_.receive(bytes); }
 
   // One that has gone astray must not go on while others are judged.
   template <typename Work>
@@ -83,26 +55,114 @@ class PipeDetector : public Detector {
     }
   }
 
+  std::vector<std::string> notes() {
+    const std::string line = process_.first_error_line();
+    if (line.empty()) return {};
+    return {"wrote to standard error: \"" + line + "\""};
+  }
+
+ private:
   std::string name_;
-  Options options_;
   PipeProcess process_;
   Declaration declaration_;
+};
+
+class PipeDetector : public Detector {
+ public:
+  PipeDetector(const std::string& command, const std::string& id, Options options)
+      : object_(command), options_(std::move(options)) {
+    object_.require_id(id);
+  }
+
+  const Semantics& semantics() const override { return object_.declaration().semantics; }
+  bool needs_vertices() const override { return object_.declaration().needs_vertices; }
+
+  // A scale, and a margin with it, may be taken from the bodies: then it declares anew.
+  void prepare(const std::vector<Body>& bodies) override {
+    object_.or_kill([&] {
+      const Reply ready = object_.ask(prepare_message(bodies, options_), "ready");
+      if (!ready.root().has("semantics")) return;
+      const Semantics now = read_semantics(ready.root().at("semantics"));
+      require_same_claims(object_.name(), semantics(), now);
+      object_.change_semantics(now);
+    });
+  }
+
+  void update(const Frame& frame) override {
+    object_.or_kill([&] {
+      reported_ns_ = object_.ask(frame_message(frame, object_.declaration()), "done").reported_ns();
+    });
+  }
+
+  void query(Question question, ContactSet& out) override {
+    object_.or_kill([&] {
+      const Reply contacts = object_.ask(query_message(question), "contacts");
+      check_contact_counts(contacts);
+      read_contacts(contacts, object_.receive(contacts.bytes()), out);
+      if (question == Question::kSelf) read_self_answer(object_.name(), out);
+      reported_ns_ = contacts.reported_ns();
+    });
+  }
+
+  std::optional<double> reported_ns() const override { return reported_ns_; }
+  std::vector<std::string> notes() override { return object_.notes(); }
+
+ private:
+  PipeObject object_;
+  Options options_;
   std::optional<double> reported_ns_;
+};
+
+class PipeImpacts final : public ImpactDetector {
+ public:
+  PipeImpacts(const std::string& command, const std::string& id, const Options& options)
+      : object_(command) {
+    object_.require_id(id);
+    object_.or_kill([&] {
+      const ImpactClaims before = object_.declaration().impacts.value();
+      const Reply ready = object_.ask(prepare_message({}, options), "ready");
+      tolerance_ = before.tolerance;
+      if (!ready.root().has("impacts")) return;
+      const ImpactClaims now = read_impact_claims(ready.root().at("impacts"));
+      require_same_claims(object_.name(), before, now);
+      tolerance_ = now.tolerance;
+    });
+  }
+
+  ImpactTolerance tolerance() const override { return tolerance_; }
+
+  ReportedImpact query(const ImpactQuery& query) override {
+    ReportedImpact out;
+    try {
+      out = read_impact(object_.ask(impact_message(query), "impact"));
+    } catch (const RefusedInput&) {
+      throw;  // this query alone
+    } catch (...) {
+      object_.or_kill([] { throw; });
+    }
+    return out;
+  }
+
+ private:
+  PipeObject object_;
+  ImpactTolerance tolerance_;
 };
 
 }  // namespace
 
 Declaration declare_command(const std::string& command) {
-  return PipeDetector(command, {}).declaration();
+  return PipeObject(command).declaration();
 }
 
 std::unique_ptr<Detector> make_pipe_detector(const std::string& command, const std::string& id,
                                              const Options& options) {
-  auto detector = std::make_unique<PipeDetector>(command, options);
-  if (detector->declaration().id != id)
-    throw InputError(detector->name() + " calls itself \"" + detector->declaration().id +
-                     "\" now; when the run began it was \"" + id + "\"");
-  return detector;
+  return std::make_unique<PipeDetector>(command, id, options);
+}
+
+std::unique_ptr<ImpactDetector> make_pipe_impact_detector(const std::string& command,
+                                                          const std::string& id,
+                                                          const Options& options) {
+  return std::make_unique<PipeImpacts>(command, id, options);
 }
 
 }  // namespace contactcheck::plugin

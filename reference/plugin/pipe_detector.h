@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/detect/detector.h"
+#include "core/detect/impact_detector.h"
 #include "reference/plugin/declaration.h"
 
 namespace contactcheck::plugin {
@@ -18,5 +19,10 @@ Declaration declare_command(const std::string& command);
 /// @throws InputError, std::runtime_error when it does not speak the protocol
 std::unique_ptr<Detector> make_pipe_detector(const std::string& command, const std::string& id,
                                              const Options& options);
+
+/// The same for queries of moving elements.
+std::unique_ptr<ImpactDetector> make_pipe_impact_detector(const std::string& command,
+                                                          const std::string& id,
+                                                          const Options& options);
 
 }  // namespace contactcheck::plugin

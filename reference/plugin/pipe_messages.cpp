@@ -93,6 +93,23 @@ std::string query_message(Question question) {
   return message({{"message", "query"}, {"question", name_of(question)}});
 }
 
+std::string impact_message(const ImpactQuery& query) {
+  std::string payload;
+  append(std::span<const Vec3>(query.start), payload);
+  append(std::span<const Vec3>(query.end), payload);
+  return message({{"message", "impact"}, {"kind", name_of(query.kind)}}, payload);
+}
+
+// NaN has no place in JSON; a time beyond [0, 1] is judged as an error.
+ReportedImpact read_impact(const Reply& reply) {
+  const text::JsonField root = reply.root();
+  ReportedImpact out;
+  out.contact = root.at("contact").boolean();
+  if (root.has("time")) out.time = root.at("time").number();
+  if (root.has("tolerance")) out.tolerance = root.at("tolerance").number();
+  return out;
+}
+
 Reply::Reply(const std::string& line, std::string from, const char* message)
     : from_(std::move(from)), value_(parsed(line, from_, message)) {
   const std::string kind = root().at("message").text();

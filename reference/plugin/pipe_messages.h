@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/deform/body.h"
+#include "core/detect/impact_detector.h"
 #include "core/types/contact_set.h"
 #include "core/types/frame.h"
+#include "core/types/impact.h"
 #include "core/types/semantics.h"
 #include "reference/plugin/declaration.h"
 
@@ -25,6 +27,8 @@ std::string prepare_message(const std::vector<Body>& bodies, const Options& opti
 /// `needs` says whether vertices, nodes or both follow.
 std::string frame_message(const Frame& frame, const Declaration& needs);
 std::string query_message(Question question);
+/// One query of moving elements: the places of four points at t = 0, then at t = 1.
+std::string impact_message(const ImpactQuery& query);
 
 /// A line that was read, as what it must be.
 class Reply {
@@ -47,6 +51,9 @@ class Reply {
   std::string from_;
   text::JsonValue value_;
 };
+
+/// What an answer of the kind `impact` says. @throws InputError for values of another type
+ReportedImpact read_impact(const Reply& reply);
 
 /// Appends the contacts that follow an answer of the kind `contacts`.
 /// @throws InputError when the counts of the line and the number of bytes do not agree

@@ -26,6 +26,35 @@ void add_file(const fs::path& file, Fnv1a& hash) {
   hash.bytes(bytes.data(), bytes.size());
 }
 
+DetectorInfo frame_detector(const Plugin& plugin) {
+  DetectorInfo info;
+  info.id = plugin.declaration.id;
+  info.summary = plugin.declaration.summary;
+  info.options = plugin.declaration.options;
+  info.make = [source = plugin.source, id = info.id](const Options& options) {
+    return source.kind == PluginKind::kLibrary
+               ? make_library_detector(PluginLibrary(source.text), options)
+               : make_pipe_detector(source.text, id, options);
+  };
+  return info;
+}
+
+ImpactDetectorInfo impact_detector(const Plugin& plugin) {
+  ImpactDetectorInfo info;
+  info.id = plugin.declaration.id;
+  info.summary = plugin.declaration.summary;
+  info.options = plugin.declaration.options;
+  info.precision = plugin.declaration.impacts->precision;
+  info.kinds = plugin.declaration.impacts->kinds;
+  info.make = [source = plugin.source, id = info.id,
+               declared = *plugin.declaration.impacts](const Options& options) {
+    return source.kind == PluginKind::kLibrary
+               ? make_library_impact_detector(PluginLibrary(source.text), options, declared)
+               : make_pipe_impact_detector(source.text, id, options);
+  };
+  return info;
+}
+
 }  // namespace
 
 const char* name_of(PluginKind kind) { return kind == PluginKind::kLibrary ? kLibrary : kCommand; }
@@ -75,24 +104,17 @@ Plugin plugin_from_text(const std::string& json) {
 void add_plugin(const Plugin& plugin, DetectorCatalog& catalog) {
   // Under the name of another detector, or of a library whose known defects are listed, results
   // would be taken for theirs.
-  const std::string& id = plugin.declaration.id;
+  const Declaration& declaration = plugin.declaration;
+  const std::string& id = declaration.id;
   const std::string claim = described(plugin.source) + " calls itself \"" + id + "\", ";
-  if (catalog.find(id) != nullptr)
+  if (catalog.find(id) != nullptr || catalog.find_impact(id) != nullptr)
     throw InputError(claim + "which is another detector's name; change the id that it declares");
   if (id == kOracle || adapters::library_of(id) != "contactcheck")
     throw InputError(claim + "a name that is kept for " +
                      (id == kOracle ? "the oracle" : adapters::library_of(id)));
-  DetectorInfo info;
-  info.id = id;
-  info.summary = plugin.declaration.summary;
-  info.options = plugin.declaration.options;
-  info.make = [source = plugin.source, id](const Options& options) {
-    return source.kind == PluginKind::kLibrary
-               ? make_library_detector(PluginLibrary(source.text), options)
-               : make_pipe_detector(source.text, id, options);
-  };
   try {
-    catalog.add(std::move(info));
+    if (declaration.answers_frames()) catalog.add(frame_detector(plugin));
+    if (declaration.impacts) catalog.add(impact_detector(plugin));
   } catch (const InputError& e) {
     throw InputError(described(plugin.source) + " cannot be used: " + e.what());
   }

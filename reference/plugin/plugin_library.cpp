@@ -23,10 +23,17 @@ std::string text_of(const char* text) { return text == nullptr ? "" : text; }
 
 constexpr const char* kToldStructs[] = {"stage", "trace", "counts"};
 static_assert(std::size(kToldStructs) == CONTACTCHECK_TOLD_COUNT);
-// Version 3 has added values and no fields.
+constexpr const char* kImpactStructs[] = {
+    "impact_semantics", "impact_query",       "impact",           "step",       "body_impact",
+    "triangle_impact",  "vertex_face_impact", "edge_edge_impact", "step_answer"};
+static_assert(std::size(kImpactStructs) == CONTACTCHECK_IMPACT_COUNT);
 constexpr std::uint32_t kFirstVersion = 1;
-// Of version 1 the table is what stands before the first field that version 2 has added.
-constexpr std::size_t kFirstTableSize = offsetof(contactcheck_plugin, told_sizes);
+// The table of an earlier version is what stands before the first field that a later one has added.
+// Version 3 has added values and no fields.
+constexpr std::size_t kTableSizes[] = {
+    offsetof(contactcheck_plugin, told_sizes), offsetof(contactcheck_plugin, impact_sizes),
+    offsetof(contactcheck_plugin, impact_sizes), sizeof(contactcheck_plugin)};
+static_assert(std::size(kTableSizes) == CONTACTCHECK_PLUGIN_ABI);
 
 std::string size_fault(const char* structure, std::uint32_t said, std::uint32_t own) {
   if (said == own) return "";
@@ -43,7 +50,7 @@ std::string layout_fault(const contactcheck_plugin* table) {
            " of contactcheck_plugin.h; this program speaks versions " +
            std::to_string(kFirstVersion) + " to " + std::to_string(CONTACTCHECK_PLUGIN_ABI);
   std::uint32_t own[] = CONTACTCHECK_STRUCT_SIZES;
-  if (version == kFirstVersion) own[0] = kFirstTableSize;
+  own[0] = static_cast<std::uint32_t>(kTableSizes[version - kFirstVersion]);
   std::string fault;
   for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
     fault = size_fault(kStructs[i], table->struct_sizes[i], own[i]);
@@ -53,15 +60,25 @@ std::string layout_fault(const contactcheck_plugin* table) {
 std::string content_fault(const contactcheck_plugin& table) {
   if (table.id == nullptr) return "has no id";
   if (table.option_count > 0 && table.options == nullptr) return "has options at no address";
-  const bool complete = table.create != nullptr && table.destroy != nullptr &&
-                        table.declare != nullptr && table.prepare != nullptr &&
-                        table.update != nullptr && table.query != nullptr;
-  if (!complete) return "lacks one of its functions";
+  const bool frames[] = {table.declare != nullptr, table.prepare != nullptr,
+                         table.update != nullptr, table.query != nullptr};
+  const bool all = frames[0] && frames[1] && frames[2] && frames[3];
+  const bool any = frames[0] || frames[1] || frames[2] || frames[3];
+  const bool moving = table.declare_impacts != nullptr;
+  if (table.create == nullptr || table.destroy == nullptr || (any || !moving) != all ||
+      moving != (table.impact != nullptr || table.step != nullptr))
+    return "lacks one of its functions";
   std::string fault;
-  if (table.trace == nullptr && table.counts == nullptr) return fault;
-  const std::uint32_t own[] = CONTACTCHECK_TOLD_SIZES;
-  for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
-    fault = size_fault(kToldStructs[i], table.told_sizes[i], own[i]);
+  if (table.trace != nullptr || table.counts != nullptr) {
+    const std::uint32_t own[] = CONTACTCHECK_TOLD_SIZES;
+    for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
+      fault = size_fault(kToldStructs[i], table.told_sizes[i], own[i]);
+  }
+  if (moving) {
+    const std::uint32_t own[] = CONTACTCHECK_IMPACT_SIZES;
+    for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
+      fault = size_fault(kImpactStructs[i], table.impact_sizes[i], own[i]);
+  }
   return fault;
 }
 
@@ -108,6 +125,11 @@ Declaration PluginLibrary::declare() const {
     option.max = from.max;
     option.integer = from.integer != 0;
     defaults[option.name] = option.default_value;
+  }
+  out.impacts = impact_claims_of(*this, defaults);
+  if (table_.declare == nullptr) {
+    if (!out.impacts) throw InputError(name_ + " answers neither frames nor queries");
+    return out;
   }
   const std::unique_ptr<Detector> detector = make_library_detector(*this, defaults);
   out.semantics = detector->semantics();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/detect/registry.h"
@@ -34,5 +35,14 @@ class PluginLibrary {
 /// @throws InputError, std::runtime_error when it fails
 std::unique_ptr<Detector> make_library_detector(const PluginLibrary& library,
                                                 const Options& options);
+
+/// The same for queries of moving elements. With these options only its tolerance may be another
+/// than `declared`.
+std::unique_ptr<ImpactDetector> make_library_impact_detector(const PluginLibrary& library,
+                                                             const Options& options,
+                                                             const ImpactClaims& declared);
+
+/// What it claims about them; none if it does not answer them.
+std::optional<ImpactClaims> impact_claims_of(const PluginLibrary& library, const Options& options);
 
 }  // namespace contactcheck::plugin

@@ -307,6 +307,18 @@ std::vector<QueryFamily> make_families() {
   add_whole(all, "no-motion", "nothing moves: in contact, or apart", kVertexFace,
             {"1,1,0 0,0,0 4,0,0 0,4,0  1,1,0 0,0,0 4,0,0 0,4,0",
              "1,1,1 0,0,0 4,0,0 0,4,0  1,1,1 0,0,0 4,0,0 0,4,0"});
+  all.push_back(
+      {"rests", "a vertex comes to rest on a level triangle that is not at height 0",
+       "edge length, m", powers_of_ten(3, -5, -1), kVertexFace, [number = all.size()](double e) {
+         return straight(number, e, [e](Draw& draw) {
+           const double floor = e * draw.between(0.001, 0.01);
+           const auto [x, y] = inside(kVertexFace, draw);
+           ImpactQuery query = falling(kVertexFace, e, x, y, e * draw.between(0.1, 1), floor);
+           for (auto* const points : {&query.start, &query.end})
+             for (std::size_t i = 1; i < 4; ++i) (*points)[i].z() = floor;
+           return query;
+         });
+       }});
   return all;
 }
 

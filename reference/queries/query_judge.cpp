@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "core/types/check.h"
+#include "reference/oracle/impact_distance.h"
 #include "reference/text/counted.h"
 
 namespace contactcheck::queries {
@@ -25,17 +27,6 @@ struct Judged {
   FileQuery query;
   Impact truth;
 };
-
-/// Microseconds between two readings of the clock, which every measured time holds as well.
-double clock_cost() {
-  double least = 1e9;
-  for (int i = 0; i < 1000; ++i) {
-    const auto start = Clock::now();
-    least =
-        std::min(least, std::chrono::duration<double, std::micro>(Clock::now() - start).count());
-  }
-  return least;
-}
 
 /// Values of which a median, a percentile and the largest are wanted. Floats: a gigabyte of queries
 /// has some three million.
@@ -58,11 +49,9 @@ class Values {
 
 class CostMeter {
  public:
-  explicit CostMeter(double clock) : clock_(clock) {}
-  void add(Clock::duration took, std::size_t line) {
+  void add(double exact_micros, std::size_t line) {
     // Rounded as the others are, so that none is above the worst.
-    const double micros = static_cast<float>(
-        std::max(0.0, std::chrono::duration<double, std::micro>(took).count() - clock_));
+    const double micros = static_cast<float>(exact_micros);
     values_.add(micros);
     sum_ += micros;
     if (micros > worst_) {
@@ -78,16 +67,48 @@ class CostMeter {
 
  private:
   Values values_;
-  double clock_, sum_ = 0, worst_ = 0;
+  double sum_ = 0, worst_ = 0;
   std::size_t worst_line_ = 0;
 };
 
-void count(ImpactScore& score, bool truth, bool reported, std::size_t line) {
-  score.truth += truth ? 1 : 0;
-  score.reported += reported ? 1 : 0;
-  if (truth && reported) ++score.hit;
-  if (truth && !reported && score.missed++ == 0) score.first_missed = line;
-  if (!truth && reported && score.spurious++ == 0) score.first_spurious = line;
+/// How a report compares with a truth.
+struct Verdict {
+  bool truth = false, reported = false;
+  oracle::NearVerdict near = oracle::NearVerdict::kSpurious;  ///< of a report that is not true
+  double distance = 0;  ///< metres; of one that is near: at least as large as the smallest
+};
+
+Verdict verdict_on(const ImpactQuery& query, bool truth, const ReportedImpact& answer,
+                   const ImpactTolerance& tolerance) {
+  Verdict verdict{truth, answer.contact};
+  if (truth || !answer.contact || (tolerance.absolute == 0 && tolerance.of_start == 0))
+    return verdict;
+  const oracle::NearMiss miss = oracle::near_miss(query, tolerance);
+  verdict.near = miss.verdict;
+  verdict.distance = miss.at_most;
+  return verdict;
+}
+
+void add(ImpactScore& score, const Verdict& verdict, std::size_t line) {
+  score.truth += verdict.truth ? 1 : 0;
+  score.reported += verdict.reported ? 1 : 0;
+  if (verdict.truth && verdict.reported) ++score.hit;
+  if (verdict.truth && !verdict.reported && score.missed++ == 0) score.first_missed = line;
+  if (verdict.truth || !verdict.reported) return;
+  if (verdict.near == oracle::NearVerdict::kNear) {
+    ++score.near;
+    score.near_max = std::max(score.near_max, verdict.distance);
+  } else if (verdict.near == oracle::NearVerdict::kUndecided) {
+    ++score.undecided;
+  } else if (score.spurious++ == 0) {
+    score.first_spurious = line;
+  }
+}
+
+bool within_at_start(const ImpactQuery& query, double tolerance) {
+  if (tolerance == 0) return false;
+  const ImpactQuery resting{query.kind, query.start, query.start};
+  return oracle::near_miss(resting, {tolerance, 0}).verdict == oracle::NearVerdict::kNear;
 }
 
 /// The decade of the longest edge at t = 0.
@@ -106,27 +127,44 @@ std::optional<int> decade_of(const ImpactQuery& query) {
 /// One detector while a file is judged.
 class Asked {
  public:
-  Asked(const ImpactDetectorInfo& info, double clock) : detector_(info.make()), meter_(clock) {
-    score_.detector = info.name;
-    score_.precision = info.precision;
-    if (info.precision == Precision::kSingle) score_.score_fed.emplace();
+  Asked(const QueryDetector& detector, const ImpactTolerance& cap)
+      : session_(detector.open()), cap_(cap) {
+    score_.detector = detector.name;
+    score_.precision = detector.precision;
+    if (detector.precision == Precision::kSingle) score_.score_fed.emplace();
   }
 
   void ask(const std::vector<Judged>& block) {
+    if (!score_.failure.empty()) return;
+    std::vector<ImpactQuery> queries;
+    std::vector<const Judged*> asked;
     for (const Judged& judged : block) {
-      ++score_.queries;
       if (!judged.query.in_doubles) {
+        ++score_.queries;
         ++score_.refused;
         continue;
       }
-      try {
-        const auto start = Clock::now();
-        const ReportedImpact answer = detector_->query(judged.query.query);
-        meter_.add(Clock::now() - start, judged.query.line);
-        judge(judged, answer);
-      } catch (const RefusedInput&) {
+      queries.push_back(judged.query.query);
+      asked.push_back(&judged);
+    }
+    std::vector<TimedAnswer> answers;
+    try {
+      session_->ask(queries, answers);
+    } catch (const std::runtime_error& e) {
+      score_.failure = e.what();
+      score_.failed_at = asked.at(answers.size())->query.line;
+    }
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      ++score_.queries;
+      if (answers[i].refused) {
         ++score_.refused;
+        continue;
       }
+      meter_.add(answers[i].micros, asked[i]->query.line);
+      DecadeScore& decade = decades_[decade_of(asked[i]->query.query)];
+      ++decade.answered;
+      decade.micros += (answers[i].micros - decade.micros) / static_cast<double>(decade.answered);
+      judge(*asked[i], answers[i].impact);
     }
   }
 
@@ -146,22 +184,42 @@ class Asked {
   }
 
  private:
+  /// What it calls contact in this query, under the cap.
+  ImpactTolerance tolerance_of(const ReportedImpact& answer) const {
+    ImpactTolerance tolerance = session_->tolerance();
+    if (answer.tolerance) tolerance.absolute = *answer.tolerance;
+    return {std::min(tolerance.absolute, cap_.absolute),
+            std::min(tolerance.of_start, cap_.of_start)};
+  }
+
   void judge(const Judged& judged, const ReportedImpact& answer) {
     const std::size_t line = judged.query.line;
+    const ImpactQuery& query = judged.query.query;
     const Impact& truth = judged.truth;
-    if (answer.contact && answer.time && !(*answer.time >= 0 && *answer.time <= 1)) {
+    const bool time_is_none = answer.time && !(*answer.time >= 0 && *answer.time <= 1);
+    const bool tolerance_is_none =
+        answer.tolerance && !(*answer.tolerance >= 0 && std::isfinite(*answer.tolerance));
+    if (answer.contact && (time_is_none || tolerance_is_none)) {
       // Neither a hit nor a miss.
       if (score_.errors++ == 0) score_.first_error = line;
       return;
     }
-    DecadeScore& decade = decades_[decade_of(judged.query.query)];
-    count(score_.score, truth.contact, answer.contact, line);
-    count(decade.score, truth.contact, answer.contact, line);
+    const ImpactTolerance tolerance = tolerance_of(answer);
+    DecadeScore& decade = decades_[decade_of(query)];
+    const Verdict verdict = verdict_on(query, truth.contact, answer, tolerance);
+    add(score_.score, verdict, line);
+    add(decade.score, verdict, line);
     if (score_.score_fed) {
-      const ImpactQuery fed = detector_->fed(judged.query.query);
-      count(*score_.score_fed, oracle::elementary_impact(fed).contact, answer.contact, line);
+      const ImpactQuery fed = session_->fed(query);
+      const bool truth_fed = oracle::elementary_impact(fed).contact;
+      add(*score_.score_fed, verdict_on(fed, truth_fed, answer, tolerance), line);
     }
     if (!truth.contact || !answer.contact || !answer.time) return;
+    if (*answer.time == 0 && !truth.starts_in_contact &&
+        within_at_start(query, tolerance.absolute)) {
+      ++score_.times.near_at_start;
+      return;
+    }
     const double early = std::max(0.0, truth.earliest - *answer.time);
     const double late = std::max(0.0, *answer.time - truth.latest);
     early_.add(early);
@@ -171,11 +229,13 @@ class Asked {
     times.after += late > 0 ? 1 : 0;
     times.early_max = std::max(times.early_max, early);
     times.late_max = std::max(times.late_max, late);
+    ++decade.timed;
     decade.early_max = std::max(decade.early_max, early);
     decade.late_max = std::max(decade.late_max, late);
   }
 
-  std::unique_ptr<ImpactDetector> detector_;
+  std::unique_ptr<QuerySession> session_;
+  ImpactTolerance cap_;
   DetectorScore score_;
   std::map<std::optional<int>, DecadeScore> decades_;
   CostMeter meter_;
@@ -185,16 +245,15 @@ class Asked {
 }  // namespace
 
 FileScore judge_queries(const std::string& name, ImpactKind kind, const NextQuery& next,
-                        const std::vector<ImpactDetectorInfo>& detectors) {
+                        const std::vector<QueryDetector>& detectors, const ImpactTolerance& cap) {
   FileScore result;
   result.name = name;
   result.kind = kind;
-  const double clock = clock_cost();
   std::vector<Asked> asked;
-  for (const ImpactDetectorInfo& info : detectors)
-    if (std::find(info.kinds.begin(), info.kinds.end(), kind) != info.kinds.end())
-      asked.emplace_back(info, clock);
-  CostMeter oracle_cost(clock);
+  for (const QueryDetector& detector : detectors)
+    if (std::find(detector.kinds.begin(), detector.kinds.end(), kind) != detector.kinds.end())
+      asked.emplace_back(detector, cap);
+  CostMeter oracle_cost;
   std::vector<Judged> block;
   std::map<std::optional<int>, DecadeTruth> decades;
   for (bool more = true; more;) {
@@ -207,7 +266,8 @@ FileScore judge_queries(const std::string& name, ImpactKind kind, const NextQuer
       const auto start = Clock::now();
       judged.truth = query.in_doubles ? oracle::elementary_impact(query.query)
                                       : oracle::elementary_impact(query.rational);
-      oracle_cost.add(Clock::now() - start, query.line);
+      oracle_cost.add(std::chrono::duration<double, std::micro>(Clock::now() - start).count(),
+                      query.line);
       ++result.queries;
       result.contacts += judged.truth.contact ? 1 : 0;
       result.starts_in_contact += judged.truth.starts_in_contact ? 1 : 0;
@@ -237,8 +297,8 @@ FileScore judge_queries(const std::string& name, ImpactKind kind, const NextQuer
   return result;
 }
 
-FileScore judge_queries(const QueryTargets& targets,
-                        const std::vector<ImpactDetectorInfo>& detectors) {
+FileScore judge_queries(const QueryTargets& targets, const std::vector<QueryDetector>& detectors,
+                        const ImpactTolerance& cap) {
   QueryReader reader(targets.file, targets.kind);
   std::vector<bool> truths;
   if (targets.truth) truths = read_truth(*targets.truth);
@@ -256,7 +316,7 @@ FileScore judge_queries(const QueryTargets& targets,
     ++read;
     return true;
   };
-  FileScore result = judge_queries(targets.file.string(), targets.kind, next, detectors);
+  FileScore result = judge_queries(targets.file.string(), targets.kind, next, detectors, cap);
   if (targets.truth && truths.size() != read) fail(text::counted(read, "query", "queries"));
   return result;
 }

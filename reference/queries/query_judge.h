@@ -5,19 +5,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/detect/impact_detector.h"
 #include "core/types/impact.h"
 #include "reference/queries/query_file.h"
+#include "reference/queries/query_session.h"
 
 namespace contactcheck::queries {
 
 /// How answers compare with one truth.
 struct ImpactScore {
   std::uint64_t truth = 0, reported = 0, hit = 0, missed = 0, spurious = 0;
+  /// Reports that are not true, but whose elements come as near as the detector's tolerance, under
+  /// the cap; and those of which subdivision did not decide it.
+  std::uint64_t near = 0, undecided = 0;
+  double near_max = 0;  ///< metres: the largest of the smallest distances of those in `near`
   std::optional<std::size_t> first_missed, first_spurious;  ///< lines of the file
 };
 
@@ -25,6 +30,8 @@ struct ImpactScore {
 /// reported time, late the other way round, each at least 0.
 struct TimeErrors {
   std::uint64_t timed = 0;
+  /// Hits that are not among them: reported at t = 0, when the elements were within the tolerance.
+  std::uint64_t near_at_start = 0;
   std::uint64_t before = 0, after = 0;  ///< reported before or after the true interval
   double early_median = 0, early_99 = 0, early_max = 0;
   double late_median = 0, late_99 = 0, late_max = 0;
@@ -41,6 +48,9 @@ struct DecadeScore {
   std::optional<int> decade;  ///< none: the elements are points
   ImpactScore score;
   double early_max = 0, late_max = 0;
+  std::uint64_t timed = 0;  ///< hits with a time
+  double micros = 0;        ///< mean of a query that it answered
+  std::uint64_t answered = 0;
 };
 
 /// The queries of a decade.
@@ -61,9 +71,13 @@ struct DetectorScore {
       score_fed;  ///< single precision: against the truth for what it was fed
   TimeErrors times;
   QueryCost cost;
-  std::uint64_t errors = 0;  ///< times that are no number or outside [0, 1]
+  /// Times that are no number or outside [0, 1], tolerances that are none.
+  std::uint64_t errors = 0;
   std::optional<std::size_t> first_error;
-  std::vector<DecadeScore> decades;  ///< ascending; those that occur
+  /// One sentence: it crashed, hung or failed, and was asked no more; empty otherwise.
+  std::string failure;
+  std::optional<std::size_t> failed_at;  ///< the line of the query that it did not answer
+  std::vector<DecadeScore> decades;      ///< ascending; those that occur
 };
 
 /// One file (or value of a family), its own truth, and all detectors that answer its kind.
@@ -87,13 +101,18 @@ struct QueryTargets {
 /// Gives the next query; false when there is none.
 using NextQuery = std::function<bool(FileQuery&)>;
 
+/// What a declared tolerance excuses at most.
+inline constexpr ImpactTolerance kNoCap = {std::numeric_limits<double>::infinity(),
+                                           std::numeric_limits<double>::infinity()};
+
 /// Asks each detector about all queries of a block in turn, block by block.
 FileScore judge_queries(const std::string& name, ImpactKind kind, const NextQuery& next,
-                        const std::vector<ImpactDetectorInfo>& detectors);
+                        const std::vector<QueryDetector>& detectors,
+                        const ImpactTolerance& cap = kNoCap);
 
 /// The same, of a file, which is read once.
 /// @throws InputError for a bad file, naming it and the line
-FileScore judge_queries(const QueryTargets& targets,
-                        const std::vector<ImpactDetectorInfo>& detectors);
+FileScore judge_queries(const QueryTargets& targets, const std::vector<QueryDetector>& detectors,
+                        const ImpactTolerance& cap = kNoCap);
 
 }  // namespace contactcheck::queries

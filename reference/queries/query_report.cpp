@@ -48,25 +48,40 @@ std::string table(const std::vector<Row>& rows) {
   return out;
 }
 
-Row row_of(const DetectorScore& d) {
+bool has_near(const ImpactScore& score) { return score.near + score.undecided > 0; }
+
+/// "3 (1.2e-06 m)": how many, and the largest of their distances; "+ 1 ?" are undecided.
+std::string near_text(const ImpactScore& score) {
+  std::string text = whole(score.near);
+  if (score.near > 0) text += fmt::format(" ({:.1e} m)", score.near_max);
+  if (score.undecided > 0) text += " + " + whole(score.undecided) + " ?";
+  return text;
+}
+
+Row row_of(const DetectorScore& d, bool near) {
   const bool timed = d.times.timed > 0;
+  Row row = {d.detector, whole(d.score.missed), whole(d.score.spurious)};
+  if (near) row.push_back(near_text(d.score));
+  for (const std::string& cell :
+       {timed ? fraction(d.times.early_max) : "-", timed ? fraction(d.times.late_max) : "-",
+        micros(d.cost.median), micros(d.cost.mean), micros(d.cost.percentile_99),
+        micros(d.cost.worst), whole(d.cost.worst_line)})
+    row.push_back(cell);
   if (d.refused == d.queries) {
-    Row row(10, "-");
-    row[0] = d.detector + " (all refused)";
-    return row;
+    row.assign(row.size(), "-");
+    row[0] = d.detector + (d.refused > 0 ? " (all refused)" : "");
+  } else if (d.refused > 0) {
+    row[0] += " (" + whole(d.refused) + " refused)";
   }
-  Row row = {d.detector,
-             whole(d.score.missed),
-             whole(d.score.spurious),
-             timed ? fraction(d.times.early_max) : "-",
-             timed ? fraction(d.times.late_max) : "-",
-             micros(d.cost.median),
-             micros(d.cost.mean),
-             micros(d.cost.percentile_99),
-             micros(d.cost.worst),
-             whole(d.cost.worst_line)};
-  if (d.refused > 0) row[0] += " (" + whole(d.refused) + " refused)";
   if (d.errors > 0) row[0] += " (" + text::counted(d.errors, "error") + ")";
+  if (!d.failure.empty()) row[0] += " (failed after " + whole(d.queries) + ")";
+  return row;
+}
+
+Row fed_row(const ImpactScore& score, bool near) {
+  Row row = {fmt::format("  as fed ({})", text::counted(score.truth, "contact")),
+             whole(score.missed), whole(score.spurious)};
+  if (near) row.push_back(near_text(score));
   return row;
 }
 
@@ -76,10 +91,12 @@ std::string errors_of(const DetectorScore& d) {
   std::vector<std::string> words;
   if (d.score.missed > 0) words.push_back(whole(d.score.missed) + " missed");
   if (d.score.spurious > 0) words.push_back(whole(d.score.spurious) + " spurious");
+  if (has_near(d.score)) words.push_back(near_text(d.score) + " near");
   if (d.times.early_max > 1e-6) words.push_back("early " + fraction(d.times.early_max));
   if (d.times.late_max > 1e-6) words.push_back("late " + fraction(d.times.late_max));
   if (d.errors > 0) words.push_back(text::counted(d.errors, "error"));
   if (d.refused > 0) words.push_back(whole(d.refused) + " refused");
+  if (!d.failure.empty()) words.push_back("failed");
   return words.empty() ? "ok" : text::joined(words);
 }
 
@@ -120,6 +137,9 @@ std::string first_wrong(const FileScore& file) {
       words.push_back("spurious at line " + whole(*d.score.first_spurious));
     if (d.first_error) words.push_back("error at line " + whole(*d.first_error));
     if (!words.empty()) out += "  first of " + d.detector + ": " + text::joined(words) + '\n';
+    if (!d.failure.empty())
+      out += fmt::format("  {} at line {}, and was asked no more: {}\n", d.detector,
+                         d.failed_at.value_or(0), d.failure);
   }
   return out;
 }
@@ -145,17 +165,26 @@ std::string text_of(const FileScore& score) {
   if (score.not_doubles > 0)
     out += fmt::format("  {} with coordinates that are no doubles: judged, and no detector asked\n",
                        text::counted(score.not_doubles, "query", "queries"));
-  std::vector<Row> rows = {{"detector", "missed", "spurious", "early", "late", "median us",
-                            "mean us", "99 % us", "worst us", "at line"}};
+  const bool near = std::ranges::any_of(score.detectors, [](const DetectorScore& d) {
+    return has_near(d.score) || (d.score_fed && has_near(*d.score_fed));
+  });
+  std::vector<Row> rows = {{"detector", "missed", "spurious"}};
+  if (near) rows[0].push_back("near");
+  for (const char* title :
+       {"early", "late", "median us", "mean us", "99 % us", "worst us", "at line"})
+    rows[0].push_back(title);
   for (const DetectorScore& d : score.detectors) {
-    rows.push_back(row_of(d));
-    if (d.score_fed)
-      rows.push_back({fmt::format("  as fed ({})", text::counted(d.score_fed->truth, "contact")),
-                      whole(d.score_fed->missed), whole(d.score_fed->spurious)});
+    rows.push_back(row_of(d, near));
+    if (d.score_fed) rows.push_back(fed_row(*d.score_fed, near));
   }
   const QueryCost& oracle = score.oracle;
-  rows.push_back({"(oracle)", "", "", "", "", micros(oracle.median), micros(oracle.mean),
-                  micros(oracle.percentile_99), micros(oracle.worst), whole(oracle.worst_line)});
+  Row last(rows[0].size() - 5);
+  last[0] = "(oracle)";
+  for (const std::string& cell :
+       {micros(oracle.median), micros(oracle.mean), micros(oracle.percentile_99),
+        micros(oracle.worst), whole(oracle.worst_line)})
+    last.push_back(cell);
+  rows.push_back(std::move(last));
   out += table(rows) + first_wrong(score);
   const std::string lengths = by_length(score);
   if (!lengths.empty()) out += '\n' + lengths;
@@ -174,15 +203,41 @@ std::string text_of(const QueryFamily& family, const std::vector<FileScore>& sco
   return fmt::format("{}: {}\n", family.id, family.title) + table(rows);
 }
 
+std::string summary_of(const std::vector<QueryFamily>& families,
+                       const std::vector<FileScore>& scores) {
+  std::vector<std::string> names;
+  for (const FileScore& score : scores)
+    for (const DetectorScore& d : score.detectors)
+      if (std::ranges::find(names, d.detector) == names.end()) names.push_back(d.detector);
+  std::vector<Row> rows = {{"family", "parameter"}};
+  rows[0].insert(rows[0].end(), names.begin(), names.end());
+  std::size_t at = 0;
+  for (const QueryFamily& family : families) {
+    Row row = {family.id, family.parameter};
+    for (const std::string& name : names) {
+      std::string cell = "-";  // it does not answer this kind
+      for (std::size_t i = 0; i < family.values.size(); ++i)
+        for (const DetectorScore& d : scores.at(at + i).detectors) {
+          if (d.detector != name || cell.starts_with("from")) continue;
+          cell = errors_of(d) == "ok" ? "ok" : fmt::format("from {:g}", family.values[i]);
+        }
+      row.push_back(cell);
+    }
+    at += family.values.size();
+    rows.push_back(std::move(row));
+  }
+  return "Where each detector begins to err (ok: nowhere)\n" + table(rows);
+}
+
 template <typename Io>
 void fields(Io& io, ImpactScore& s) {
-  CONTACTCHECK_FIELDS(io, s, truth, reported, hit, missed, spurious);
+  CONTACTCHECK_FIELDS(io, s, truth, reported, hit, missed, spurious, near, undecided, near_max);
   CONTACTCHECK_FIELDS(io.unless_empty, s, first_missed, first_spurious);
 }
 template <typename Io>
 void fields(Io& io, TimeErrors& t) {
-  CONTACTCHECK_FIELDS(io, t, timed, before, after, early_median, early_99, early_max, late_median,
-                      late_99, late_max);
+  CONTACTCHECK_FIELDS(io, t, timed, near_at_start, before, after, early_median, early_99, early_max,
+                      late_median, late_99, late_max);
 }
 template <typename Io>
 void fields(Io& io, QueryCost& c) {
@@ -194,7 +249,7 @@ void fields(Io& io, DecadeTruth& d) {
 }
 template <typename Io>
 void fields(Io& io, DecadeScore& d) {
-  CONTACTCHECK_FIELDS(io, d, decade, score, early_max, late_max);
+  CONTACTCHECK_FIELDS(io, d, decade, score, timed, early_max, late_max, answered, micros);
 }
 template <typename Io>
 void fields(Io& io, DetectorScore& d) {
@@ -203,7 +258,7 @@ void fields(Io& io, DetectorScore& d) {
   io("time_of_contact", d.times);
   io("microseconds", d.cost);
   CONTACTCHECK_FIELDS(io, d, errors);
-  CONTACTCHECK_FIELDS(io.unless_empty, d, first_error, decades);
+  CONTACTCHECK_FIELDS(io.unless_empty, d, first_error, failure, failed_at, decades);
 }
 template <typename Io>
 void fields(Io& io, FileScore& f) {

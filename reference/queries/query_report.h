@@ -17,6 +17,11 @@ std::string text_of(const FileScore& score);
 /// A table with a row a value: what each detector does wrong there. @pre as many scores as values
 std::string text_of(const QueryFamily& family, const std::vector<FileScore>& scores);
 
+/// A row a family, with the first of its values at which each detector errs, in the order of the
+/// values. @pre `scores` has those of every family, one after the other
+std::string summary_of(const std::vector<QueryFamily>& families,
+                       const std::vector<FileScore>& scores);
+
 /// The document of queries.json.
 std::string json_of(const std::vector<FileScore>& scores);
 

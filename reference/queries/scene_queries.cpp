@@ -1,10 +1,12 @@
 #include "reference/queries/scene_queries.h"
 
+#include <fmt/format.h>
 #include <gmpxx.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,6 +18,7 @@
 #include "core/types/check.h"
 #include "core/types/impact.h"
 #include "reference/oracle/elementary_impact.h"
+#include "reference/oracle/impact_certificate.h"
 #include "reference/scene/frame_positions.h"
 #include "reference/scene/split_mix.h"
 #include "reference/text/file_text.h"
@@ -144,10 +147,86 @@ class Reservoir {
   std::vector<std::pair<std::size_t, ImpactQuery>> chosen_;
 };
 
-/// One CSV file, written as it grows.
+// A certificate as a line of JSON. A number is that double; a text is a rational, hexadecimal.
+
+std::string number_text(const mpq_class& value) {
+  const double rounded = value.get_d();
+  if (std::isfinite(rounded) && mpq_class(rounded) == value) return fmt::format("{}", rounded);
+  return '"' + value.get_str(16) + '"';
+}
+
+/// A number, or [x, y] for x + y times the square root that the line names.
+std::string surd_text(const oracle::certify::Surd& surd, bool rational) {
+  return rational ? number_text(surd.x)
+                  : fmt::format("[{},{}]", number_text(surd.x), number_text(surd.y));
+}
+
+std::string piece_text(const oracle::certify::ApartPiece& piece) {
+  const std::string end = number_text(piece.end);
+  if (const auto* side = std::get_if<oracle::certify::Side>(&piece.reason))
+    return fmt::format(R"([{},"side",{},{},{}])", end, side->axis, side->from, side->to);
+  if (const auto* direction = std::get_if<oracle::certify::Direction>(&piece.reason)) {
+    const auto& [x, y, z] = direction->along;
+    return fmt::format(R"([{},"direction",{},{},{}])", end, number_text(mpq_class(x)),
+                       number_text(mpq_class(y)), number_text(mpq_class(z)));
+  }
+  return fmt::format(R"([{},"volume"])", end);
+}
+
+std::string meeting_text(const oracle::certify::Meeting& meeting) {
+  const bool rational = meeting.time.root == 0;
+  std::string weights;
+  for (const oracle::certify::Surd& weight : meeting.weights)
+    weights += (weights.empty() ? "" : ",") + surd_text(weight, rational);
+  const std::string root = rational ? "" : ',' + number_text(mpq_class(meeting.time.root));
+  return fmt::format("[{},[{}]{}]", surd_text(meeting.time, rational), weights, root);
+}
+
+std::string certificate_text(const std::optional<oracle::certify::ImpactCertificate>& proof) {
+  if (!proof) return "null\n";
+  std::string text;
+  for (const auto& piece : proof->apart) text += (text.empty() ? "" : ",") + piece_text(piece);
+  text = R"({"apart":[)" + text + ']';
+  if (const auto* crossing = std::get_if<oracle::certify::Crossing>(&proof->contact))
+    text += fmt::format(R"(,"crosses":[{},{},{}])", number_text(crossing->start),
+                        number_text(crossing->end), crossing->axis);
+  if (const auto* meeting = std::get_if<oracle::certify::Meeting>(&proof->contact))
+    text += R"(,"meets":)" + meeting_text(*meeting);
+  return text + "}\n";
+}
+
+/// A text file, written as it grows.
+class GrowingFile {
+ public:
+  GrowingFile(const fs::path& folder, const std::string& name)
+      : file_(folder / name), out_(file_, std::ios::binary) {}
+
+  void add(const std::string& text) {
+    crc_ = crc32_z(crc_, reinterpret_cast<const Bytef*>(text.data()), text.size());
+    out_ << text;
+  }
+
+  /// Puts the CRC-32 of the whole file into `checksums`. @throws InputError if it was not written
+  void finish(Json& checksums) {
+    out_.close();
+    if (!out_) throw InputError("cannot write " + text::in_quotes(file_.string()));
+    checksums[file_.filename().string()] = fmt::format("{:08x}", crc_);
+  }
+
+ private:
+  fs::path file_;
+  std::ofstream out_;
+  uLong crc_ = crc32_z(0, nullptr, 0);
+};
+
+/// The CSV file of one kind, and its certificates.
 class QueryWriter {
  public:
-  explicit QueryWriter(fs::path file) : file_(std::move(file)), out_(file_, std::ios::binary) {}
+  QueryWriter(const fs::path& folder, ImpactKind kind, bool certificates)
+      : queries_(folder, name_of(kind) + std::string(".csv")) {
+    if (certificates)
+      certificates_.emplace(folder, name_of(kind) + std::string(".certificates.jsonl"));
+  }
 
   void add(const ImpactQuery& query, ExportedQueries& counts) {
     const Impact truth = oracle::elementary_impact(query);
@@ -163,23 +242,22 @@ class QueryWriter {
         }
         text += truth.contact ? "1\n" : "0\n";
       }
-    crc_ = crc32_z(crc_, reinterpret_cast<const Bytef*>(text.data()), text.size());
-    out_ << text;
+    queries_.add(text);
+    if (!certificates_) return;
+    const auto proof = oracle::certify::certify_impact(query, truth);
+    counts.proved += proof ? 1 : 0;
+    certificates_->add(certificate_text(proof));
   }
 
-  /// The CRC-32 of the whole file. @throws InputError if it could not be written
-  std::string finish() {
-    out_.close();
-    if (!out_) throw InputError("cannot write " + text::in_quotes(file_.string()));
-    char text[9];
-    std::snprintf(text, sizeof text, "%08lx", crc_);
-    return text;
+  /// @throws InputError if a file could not be written
+  void finish(Json& checksums) {
+    queries_.finish(checksums);
+    if (certificates_) certificates_->finish(checksums);
   }
 
  private:
-  fs::path file_;
-  std::ofstream out_;
-  uLong crc_ = crc32_z(0, nullptr, 0);
+  GrowingFile queries_;
+  std::optional<GrowingFile> certificates_;
 };
 
 void require_finite(const scene::Scene& scene, std::size_t frame,
@@ -262,11 +340,16 @@ class StepQueries {
   std::vector<Boxes> boxes_;
 };
 
-Json to_json(const ExportedQueries& counts) {
-  return {{"found", counts.found},
-          {"written", counts.written},
-          {"contacts", counts.contacts},
-          {"starts_in_contact", counts.starts_in_contact}};
+Json to_json(const ExportedQueries& counts, bool certificates) {
+  Json json = {{"found", counts.found},
+               {"written", counts.written},
+               {"contacts", counts.contacts},
+               {"starts_in_contact", counts.starts_in_contact}};
+  if (certificates) {
+    json["proved"] = counts.proved;
+    json["unproved"] = counts.written - counts.proved;
+  }
+  return json;
 }
 
 }  // namespace
@@ -278,8 +361,8 @@ QueryExport export_queries(const scene::Scene& scene, const QuerySample& sample,
   const bool own = any_self(scene.levels);
   const scene::FramePositions positions(scene);
   Reservoir vertex_face(sample, 0), edge_edge(sample, 1);
-  QueryWriter vertex_face_file(folder / "vertex-face.csv"),
-      edge_edge_file(folder / "edge-edge.csv");
+  QueryWriter vertex_face_file(folder, ImpactKind::vertex_triangle, sample.certificates),
+      edge_edge_file(folder, ImpactKind::edge_edge, sample.certificates);
   QueryExport result;
   Json steps = Json::array();
   const auto write = [&] {
@@ -321,10 +404,12 @@ QueryExport export_queries(const scene::Scene& scene, const QuerySample& sample,
                 {"title", scene.title},
                 {"self", own}};
   if (sample.most) index["sample"] = {{"most", *sample.most}, {"seed", sample.seed}};
-  index["vertex_face"] = to_json(result.vertex_face);
-  index["edge_edge"] = to_json(result.edge_edge);
-  index["crc32"] = {{"vertex-face.csv", vertex_face_file.finish()},
-                    {"edge-edge.csv", edge_edge_file.finish()}};
+  index["certificates"] = sample.certificates;
+  index["vertex_face"] = to_json(result.vertex_face, sample.certificates);
+  index["edge_edge"] = to_json(result.edge_edge, sample.certificates);
+  Json& checksums = index["crc32"] = Json::object();
+  vertex_face_file.finish(checksums);
+  edge_edge_file.finish(checksums);
   index["steps"] = steps;
   write_file_atomically(folder / kIndex, index.dump(1) + "\n");
   return result;

@@ -20,11 +20,13 @@ namespace contactcheck::queries {
 struct QuerySample {
   std::optional<std::size_t> most;  ///< of each kind; none: all
   std::uint64_t seed = 1;           ///< of the draw; all queries of a kind are equally likely
+  bool certificates = false;        ///< proofs of the truth, for check.py
 };
 
 /// Of one kind, over all steps.
 struct ExportedQueries {
   std::size_t found = 0, written = 0, contacts = 0, starts_in_contact = 0;
+  std::size_t proved = 0;  ///< with certificates: queries that have one
 };
 
 struct QueryExport {
@@ -33,7 +35,9 @@ struct QueryExport {
 };
 
 /// Writes vertex-face.csv and edge-edge.csv, in the format of query_file.h with the oracle's truth
-/// in the seventh column, and last queries.json: counts by step, CRC-32 of both files, version.
+/// in the seventh column, and last queries.json: counts by step, CRC-32 of the files, version.
+/// With certificates also vertex-face.certificates.jsonl and edge-edge.certificates.jsonl: a line
+/// for each query with its proof (check.py documents it), or null where none was found.
 /// Calls `before_step` before each step. @pre `folder` exists; a simulated scene has been simulated
 /// @throws InputError, one sentence, if a vertex is not finite or a file cannot be written
 QueryExport export_queries(const scene::Scene& scene, const QuerySample& sample,

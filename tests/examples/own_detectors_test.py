@@ -1,5 +1,6 @@
 """The worked examples of detectors from outside, through the whole program."""
 
+import json
 import os
 import pathlib
 import shlex
@@ -7,13 +8,15 @@ import sys
 
 import pytest
 
-from program import PROGRAM, contactcheck, refused, run_program, successful, valid_results
+from program import PROGRAM, ROOT, contactcheck, refused, run_program, successful, valid_results
 from tiny_run import UNTIMED, TinyRun
 
 LIBRARY = os.environ["CONTACTCHECK_C_EXAMPLE"]
+IMPACTS_LIBRARY = os.environ["CONTACTCHECK_C_IMPACTS_EXAMPLE"]
 CPP_PROGRAM = os.environ["CONTACTCHECK_CPP_EXAMPLE"]
-COMMAND = shlex.join([sys.executable, "-B",
-                      str(pathlib.Path(__file__).with_name("python-pipe") / "detector.py")])
+PYTHON_FOLDER = pathlib.Path(__file__).with_name("python-pipe")
+COMMAND = shlex.join([sys.executable, "-B", str(PYTHON_FOLDER / "detector.py")])
+IMPACTS_COMMAND = shlex.join([sys.executable, "-B", str(PYTHON_FOLDER / "impacts.py")])
 
 # Simulated bodies that fall on one another, driven by detectors from outside.
 FALL = """{
@@ -164,3 +167,41 @@ def test_two_builds_are_compared_in_turns(base, head, tmp_path):
 ], ids=["other options", "program and library", "command and library"])
 def test_builds_of_two_kinds_are_not_compared(base, head, named, tmp_path):
     refused(*ab(base, head, tmp_path), named=named, folder=tmp_path)
+
+
+# ---- queries of moving elements
+
+
+def judged_queries(program, folder, *words):
+    """The rows of two files with proved truth, by file and detector."""
+    files = sorted((ROOT / "fixtures" / "queries").glob("*/by_hand.csv"))
+    outcome = run_program(program, ["queries", *files, *words, "--out", folder])
+    assert outcome.exit_code == 0, outcome.err
+    document = json.loads((folder / "queries.json").read_text(encoding="utf-8"))
+    return [{row["detector"]: row for row in file["detectors"]} for file in document["files"]]
+
+
+def test_in_c_boxes_of_time_and_place_miss_nothing(tmp_path):
+    for rows in judged_queries(PROGRAM, tmp_path, "--detector", IMPACTS_LIBRARY, "--detector",
+                               f"{IMPACTS_LIBRARY}:tolerance=0.001"):
+        for name in ("c-inclusion", "c-inclusion:tolerance=0.001"):
+            score = rows[name]["score"]
+            assert score["truth"] > 50 and score["missed"] == score["spurious"] == 0
+            assert score["near"] > 0
+            assert rows[name]["time_of_contact"]["late_max"] == 0
+        coarse, fine = (rows[name]["score"]["near"]
+                        for name in ("c-inclusion:tolerance=0.001", "c-inclusion"))
+        assert coarse >= fine
+
+
+def test_in_python_changes_of_a_sign_find_crossings_and_no_touching(tmp_path):
+    for rows in judged_queries(PROGRAM, tmp_path, "--detector-cmd", IMPACTS_COMMAND):
+        score = rows["python-samples"]["score"]
+        assert 20 < score["hit"] < score["truth"]
+
+
+def test_in_cpp_boxes_before_the_exact_test_lose_nothing(tmp_path):
+    for rows in judged_queries(CPP_PROGRAM, tmp_path, "--detector", "cpp-boxes", "--detector", "exact"):
+        for row in rows.values():
+            assert row["score"]["missed"] == row["score"]["spurious"] == 0
+        assert rows["cpp-boxes"]["score"] == rows["exact"]["score"]

@@ -77,7 +77,32 @@ class SweepDetector : public Detector {
   std::vector<std::span<const Vec3>> vertices_;  // of the last frame; the caller keeps them
 };
 
+class BoxesDetector : public ImpactDetector {
+ public:
+  ReportedImpact query(const ImpactQuery& query) override {
+    const std::size_t first = query.kind == ImpactKind::vertex_triangle ? 1 : 2;
+    Aabb one, other;  // a point that moves straight stays in the box of its two places
+    for (std::size_t i = 0; i < 4; ++i) {
+      Aabb& box = i < first ? one : other;
+      box.extend(query.start[i]);
+      box.extend(query.end[i]);
+    }
+    if (!one.overlaps(other)) return {};
+    const Impact impact = find_impact(query);
+    if (!impact.contact) return {};
+    return {true, impact.earliest};
+  }
+};
+
 }  // namespace
+
+void register_boxes(DetectorCatalog& catalog) {
+  ImpactDetectorInfo info;
+  info.id = "cpp-boxes";
+  info.summary = "example: boxes over the step, core's exact test, in C++";
+  info.make = [](const Options&) { return std::make_unique<BoxesDetector>(); };
+  catalog.add(std::move(info));
+}
 
 void register_sweep(DetectorCatalog& catalog) {
   DetectorInfo info;

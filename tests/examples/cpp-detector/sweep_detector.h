@@ -9,4 +9,8 @@ namespace example {
 /// two triangles. All intersecting pairs of triangles, no others.
 void register_sweep(contactcheck::DetectorCatalog& catalog);
 
+/// Adds `cpp-boxes`, which answers queries of moving elements: boxes of the two elements over the
+/// step, then core's exact test.
+void register_boxes(contactcheck::DetectorCatalog& catalog);
+
 }  // namespace example

@@ -163,10 +163,10 @@ TEST(DetectorSheet, KeepsTheFileOrCommandInOneLineHoweverLongItIs) {
   for (const std::string& path :
        {std::string("/srv/two  blanks/libmine.so"), "/" + std::string(200, 'n') + "/libmine.so"}) {
     plugin.source = {plugin::PluginKind::kLibrary, path};
-    EXPECT_THAT(plugin_sheet(plugin, info_with(plain()), spec, 30),
+    EXPECT_THAT(plugin_sheet(plugin, info_with(plain()).options, spec, 30),
                 HasSubstr("\n  from        library \"" + path + "\"\n"));
     plugin.source = {plugin::PluginKind::kCommand, "python3 '" + path + "'"};
-    EXPECT_THAT(plugin_sheet(plugin, info_with(plain()), spec, 30),
+    EXPECT_THAT(plugin_sheet(plugin, info_with(plain()).options, spec, 30),
                 HasSubstr("\n  from        command \"python3 '" + path + "'\"\n"));
   }
 }

@@ -10,6 +10,7 @@ import program
 
 # The identifiers of all detectors, in the order of `list`. detector_sheet_test.cpp holds them against the
 # catalogue.
+DETECTORS_OF_QUERIES = ["exact", "root-finder", "fcl-intersect", "bullet-bernstein"]
 DETECTORS = (pathlib.Path(__file__).parent / "detectors.txt").read_text().split()
 
 
@@ -32,13 +33,14 @@ def fixture_entries(*files):
 
 def test_list_names_every_suite_scene_and_detector_with_one_line():
     text = printed("list")
-    suites, scenes, detectors = text.split("\n\n")
+    suites, scenes, detectors, of_queries = text.split("\n\n")
     suite_files, scene_files = ([*(program.FIXTURES / kind).glob("*.json")] for kind in ("suites", "scenes"))
     assert suite_files and scene_files
     assert entries_of(suites) == fixture_entries(*suite_files, program.FIXTURES / "drawn.json")
     assert entries_of(scenes) == fixture_entries(*scene_files)
     assert [entry[0] for entry in entries_of(detectors)] == DETECTORS
-    assert all(len(entry) == 2 for entry in entries_of(detectors))
+    assert [entry[0] for entry in entries_of(of_queries)] == DETECTORS_OF_QUERIES
+    assert all(len(entry) == 2 for entry in entries_of(detectors) + entries_of(of_queries))
     assert "questions" not in text
 
 
@@ -52,6 +54,10 @@ def test_list_of_detectors_gives_the_sheet_of_each_within_a_hundred_columns():
     summaries = dict(entries_of(printed("list").split("\n\n")[2]))
     text = printed("list", "--detectors")
     assert all(len(line.encode()) <= 100 for line in text.splitlines())
+    text, of_queries = text.split("\n\nDetectors of queries (contactcheck queries)\n\n")
+    sheets = of_queries.split("\n\n")
+    assert [sheet.splitlines()[0] for sheet in sheets] == DETECTORS_OF_QUERIES
+    assert all("\n  queries     vertex-face" in sheet for sheet in sheets)
     head, *sheets = text.split("\n\n")
     assert head.startswith("Detectors ")
     assert [sheet.splitlines()[0] for sheet in sheets] == DETECTORS
@@ -116,7 +122,7 @@ def test_help_of_reproduce_names_its_flags_and_its_files():
 
 def test_help_of_export_names_its_flags_and_the_checker():
     text = on_one_line(help_of("export"))
-    for word in ("--frames", "--every", "--out", "out/export", "check.py"):
+    for word in ("--frames", "--every", "--queries", "--certificates", "--out", "out/export", "check.py"):
         assert word in text
 
 

@@ -21,12 +21,19 @@ def scores(folder):
     return document["files"]
 
 
+OUTPUTS = {"queries.json", "queries.md", "queries-times.svg", "queries-cost.svg"}
+
+
 def judged(folder, *words):
     """What is printed, and the files of queries.json. The folder `out` is that of --out by default."""
     outcome = successful("queries", *words, cwd=folder)
     assert outcome.err == ""
-    assert names_in(folder / "out") == {"queries.json"}
-    assert outcome.out.endswith("\n\nout/queries.json\n")
+    assert {"queries.json", "queries.md"} <= names_in(folder / "out") <= OUTPUTS
+    assert outcome.out.endswith("\n\nout/queries.md\n")
+    report = (folder / "out" / "queries.md").read_text(encoding="utf-8")
+    assert outcome.out.removesuffix("\nout/queries.md\n") in report
+    for picture in OUTPUTS & names_in(folder / "out") - {"queries.json", "queries.md"}:
+        assert f"]({picture})" in report
     return outcome.out, scores(folder)
 
 
@@ -44,7 +51,7 @@ def test_help_names_every_detector_and_example_files(tmp_path):
     assert max(map(len, text.splitlines())) <= 100
     _, (score,) = judged(tmp_path, FACES)
     *names, last = [detector["detector"] for detector in score["detectors"]]
-    assert f"{', '.join(names)} or {last} (default: all)" in text
+    assert f"{', '.join(names)}, {last} or FILE.so" in " ".join(text.split())
 
 
 def test_the_general_help_has_the_command():
@@ -123,7 +130,7 @@ def test_what_no_float_can_hold_is_refused_by_a_detector_in_floats(tmp_path):
 
 def test_families_have_a_table_each_and_the_exact_detector_is_right(tmp_path):
     text, values = judged(tmp_path, "--families")
-    families = [re.match(r"(\S+): ", table)[1] for table in text.split("\n\n")[:-1]]
+    families = [re.match(r"(\S+): ", table)[1] for table in text.split("\n\n")[:-2]]
     assert len(families) > 20 and len(set(families)) == len(families)
     assert list(dict.fromkeys(value["name"].rpartition("@")[0] for value in values)) == families
     assert {"vertex-face", "edge-edge"} == {value["kind"] for value in values}

@@ -12,7 +12,8 @@ from program import refused, successful
 from tiny_run import TinyRun
 
 STAGED = os.environ["CONTACTCHECK_STAGED_LIBRARY"]
-VERSION_1 = os.environ["CONTACTCHECK_VERSION_1_LIBRARY"]
+EARLIER = {"version-1": os.environ["CONTACTCHECK_VERSION_1_LIBRARY"],
+           "version-3": os.environ["CONTACTCHECK_VERSION_3_LIBRARY"]}
 TIMED = ("--processes", "1")
 
 
@@ -90,8 +91,9 @@ def test_structure_of_another_size_is_refused(tmp_path, monkeypatch):
                           named=["gives contactcheck_stage a size of", "here it has"], folder=tmp_path)
 
 
-def test_library_of_version_1_runs_as_it_did(tmp_path):
-    row = TinyRun(tmp_path, ["--detector", VERSION_1], TIMED).row("version-1")
+@pytest.mark.parametrize("version", EARLIER)
+def test_library_of_an_earlier_version_runs_as_it_did(version, tmp_path):
+    row = TinyRun(tmp_path, ["--detector", EARLIER[version]], TIMED).row(version)
     assert row["status"] == "ok", row["message"]
     assert row["levels"]["triangle"]["reported"] == 0
     assert row["stages"] == []

@@ -14,7 +14,7 @@ from tiny_run import TinyRun
 
 
 @pytest.mark.parametrize("name, pieces, _, flags", [
-    fault("version", "version 99", "this program speaks versions 1 to 3"),
+    fault("version", "version 99", "this program speaks versions 1 to 4"),
     fault("size", "contactcheck_body a size of", "here it has"),
     fault("no-table", "cannot be used: it gave no table from contactcheck_plugin_entry()"),
     fault("no-function", "lacks one of its functions"),

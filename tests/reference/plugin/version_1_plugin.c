@@ -1,5 +1,6 @@
-/* A plug-in as version 1 of contactcheck_plugin.h had it: its table ends with query(). The table
- * lies at the end of a page behind which there is nothing: a host that reads on dies. */
+/* A plug-in as version 1 of contactcheck_plugin.h had it: its table ends with query(); or, with
+ * TABLE_VERSION 3, with own_ms(). The table lies at the end of a page behind which there is
+ * nothing: a host that reads on dies. */
 #define _DEFAULT_SOURCE
 #include <stdint.h>
 #include <string.h>
@@ -21,10 +22,23 @@ typedef struct {
   int32_t (*prepare)(void*, const contactcheck_body*, uint32_t, char*);
   int32_t (*update)(void*, const contactcheck_frame*, char*);
   int32_t (*query)(void*, uint32_t, const contactcheck_answer*, char*);
+#if TABLE_VERSION == 3
+  uint32_t told_sizes[3], reserved_2;
+  int32_t (*trace)(void*, const contactcheck_trace*, char*);
+  int32_t (*counts)(void*, const contactcheck_counts*, char*);
+  double (*own_ms)(void*);
+#endif
 } Table;
 
 /* Of a 64-bit machine, in the header's order; the first is Table's. */
-static const uint32_t kSizes[15] = {152, 80, 56, 16, 56, 40, 16, 32, 8, 16, 16, 16, 48, 48, 64};
+#if TABLE_VERSION == 3
+#define TABLE_SIZE 192
+#else
+#define TABLE_VERSION 1
+#define TABLE_SIZE 152
+#endif
+static const uint32_t kSizes[15] = {TABLE_SIZE, 80, 56, 16, 56, 40, 16, 32,
+                                    8,          16, 16, 16, 48, 48, 64};
 
 static int32_t create(const contactcheck_setting* s, uint32_t n, void** detector, char* message) {
   static int something;
@@ -59,8 +73,8 @@ const void* contactcheck_version_1_entry(void) {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE);
   char* const pages =
       mmap(NULL, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  Table table = {.abi_version = 1,
-                 .id = "version-1",
+  Table table = {.abi_version = TABLE_VERSION,
+                 .id = TABLE_VERSION == 1 ? "version-1" : "version-3",
                  .version = "1.0",
                  .create = create,
                  .destroy = destroy,

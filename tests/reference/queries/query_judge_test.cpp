@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 
 #include "tests/reference/scene/scratch.h"
 
@@ -44,36 +46,40 @@ using Feed = std::function<ImpactQuery(const ImpactQuery&)>;
 
 class Written final : public ImpactDetector {
  public:
-  Written(Answers answers, Feed feed) : answers_(std::move(answers)), feed_(std::move(feed)) {}
+  Written(Answers answers, Feed feed, ImpactTolerance tolerance)
+      : answers_(std::move(answers)), feed_(std::move(feed)), tolerance_(tolerance) {}
+  ImpactTolerance tolerance() const override { return tolerance_; }
   ReportedImpact query(const ImpactQuery& query) override { return answers_(query); }
   ImpactQuery fed(const ImpactQuery& query) const override { return feed_ ? feed_(query) : query; }
 
  private:
   Answers answers_;
   Feed feed_;
+  ImpactTolerance tolerance_;
 };
 
-ImpactDetectorInfo detector(const std::string& name, const Answers& answers,
-                            const std::vector<ImpactKind>& kinds = {kFace, kEdge},
-                            Precision precision = Precision::kDouble, const Feed& feed = {}) {
-  return {name, "", precision, kinds,
-          [answers, feed] { return std::make_unique<Written>(answers, feed); }};
+QueryDetector detector(const std::string& name, const Answers& answers,
+                       const std::vector<ImpactKind>& kinds = {kFace, kEdge},
+                       Precision precision = Precision::kDouble, const Feed& feed = {},
+                       const ImpactTolerance& tolerance = {}) {
+  return {name, precision, kinds,
+          [=] { return local_session(std::make_unique<Written>(answers, feed, tolerance)); }};
 }
 
 /// Gives these answers, one after the other.
-ImpactDetectorInfo in_turn(std::vector<ReportedImpact> list) {
+QueryDetector in_turn(std::vector<ReportedImpact> list) {
   auto next = std::make_shared<std::size_t>(0);
   return detector(
       "in-turn", [list = std::move(list), next](const ImpactQuery&) { return list.at((*next)++); });
 }
 
-FileScore judged(const std::string& text, const std::vector<ImpactDetectorInfo>& detectors,
-                 ImpactKind kind = kFace) {
+FileScore judged(const std::string& text, const std::vector<QueryDetector>& detectors,
+                 ImpactKind kind = kFace, const ImpactTolerance& cap = kNoCap) {
   const Scratch scratch;
-  return judge_queries({scratch.write("q.csv", text), kind, std::nullopt}, detectors);
+  return judge_queries({scratch.write("q.csv", text), kind, std::nullopt}, detectors, cap);
 }
 
-DetectorScore score_of(const std::string& text, const ImpactDetectorInfo& info) {
+DetectorScore score_of(const std::string& text, const QueryDetector& info) {
   return judged(text, {info}).detectors.at(0);
 }
 
@@ -186,6 +192,110 @@ TEST(JudgeQueries, PassesOverTheTimeOfNoContact) {
   expect_score(score.score, {1, 0, 0, 1, 0});
 }
 
+/// Reports contact everywhere, with this tolerance of its own and in this answer.
+QueryDetector near(const ImpactTolerance& tolerance, std::optional<double> of_answer = {},
+                   std::optional<double> time = {}) {
+  return detector(
+      "near",
+      [=](const ImpactQuery&) {
+        return ReportedImpact{true, time, of_answer};
+      },
+      {kFace, kEdge}, Precision::kDouble, {}, tolerance);
+}
+
+/// Not nearer than an eighth, half a metre, 2 metres, and a contact; from a height of 4 metres.
+const std::string kHeights =
+    falls("4,1", "1,8") + falls("4,1", "1,2") + falls("4,1", "2,1") + falls("4,1", "0,1");
+
+struct NearCase {
+  ImpactTolerance tolerance, cap;
+  std::optional<double> of_answer;
+  std::uint64_t near, spurious;
+  double near_max;
+};
+
+TEST(JudgeQueries, TellsReportsWithinTheToleranceFromSpuriousOnes) {
+  const double none = kNoCap.absolute;
+  const double below = std::nextafter(0.5, 0.0);
+  for (const NearCase& c :
+       {NearCase{{0, 0}, kNoCap, {}, 0, 3, 0}, NearCase{{0.5, 0}, kNoCap, {}, 2, 1, 0.5},
+        NearCase{{below, 0}, kNoCap, {}, 1, 2, 0.125},
+        NearCase{{10, 0}, {below, none}, {}, 1, 2, 0.125}, NearCase{{0, 0.5}, kNoCap, {}, 3, 0, 2},
+        NearCase{{0, 0.5}, {none, 0.25}, {}, 2, 1, 0.5},
+        NearCase{{0.5, 0.5}, {none, 0}, {}, 2, 1, 0.5},
+        NearCase{{0.5, 0}, kNoCap, 0.125, 1, 2, 0.125}, NearCase{{0, 0}, kNoCap, 2.0, 3, 0, 2},
+        NearCase{{0, 0}, {0.25, none}, 2.0, 1, 2, 0.125}}) {
+    const FileScore file = judged(kHeights, {near(c.tolerance, c.of_answer)}, kFace, c.cap);
+    const ImpactScore& score = file.detectors.at(0).score;
+    EXPECT_EQ(score.hit, 1U);
+    EXPECT_EQ(score.reported, 4U);
+    EXPECT_EQ(score.near, c.near) << c.tolerance.absolute << " " << c.tolerance.of_start;
+    EXPECT_EQ(score.spurious, c.spurious);
+    EXPECT_EQ(score.undecided, 0U);
+    EXPECT_NEAR(score.near_max, c.near_max, 1e-12);
+  }
+}
+
+TEST(JudgeQueries, NamesTheFirstSpuriousReportBehindNearOnes) {
+  const DetectorScore score = score_of(kHeights, near({0.5, 0}));
+  EXPECT_EQ(score.score.first_spurious, 17U);
+}
+
+TEST(JudgeQueries, CountsTolerancesThatAreNoneAsErrors) {
+  for (const double tolerance : {kNan, -0x1p-1074, std::numeric_limits<double>::infinity()}) {
+    const DetectorScore score = score_of(kHeights, near({}, tolerance));
+    EXPECT_EQ(score.errors, 4U) << tolerance;
+    EXPECT_EQ(score.score.reported, 0U);
+  }
+}
+
+TEST(JudgeQueries, CallsAStartWithinTheToleranceNotEarly) {
+  // All begin a metre above and meet half way.
+  for (const auto& [tolerance, time, near_at_start] :
+       {std::tuple{1.0, 0.0, 1U}, {std::nextafter(1.0, 0.0), 0.0, 0U}, {1.0, 0x1p-60, 0U}}) {
+    const DetectorScore score = score_of(kMeets, near({tolerance, 0}, {}, time));
+    EXPECT_EQ(score.score.hit, 1U);
+    EXPECT_EQ(score.times.near_at_start, near_at_start) << tolerance << " " << time;
+    EXPECT_EQ(score.times.timed, 1U - near_at_start);
+    EXPECT_NEAR(score.times.early_max, near_at_start == 1 ? 0 : 0.5, kImpactTimeWidth);
+  }
+}
+
+TEST(JudgeQueries, TellsNearFromSpuriousOnWhatItWasFed) {
+  // Fed a metre higher: the contact is none any more.
+  const Feed higher = [](const ImpactQuery& query) {
+    ImpactQuery fed = query;
+    fed.start[0].z() += 1;
+    fed.end[0].z() += 1;
+    return fed;
+  };
+  const Answers always = [](const ImpactQuery&) { return ReportedImpact{true}; };
+  const DetectorScore score =
+      score_of(kHeights, detector("fed", always, {kFace}, Precision::kSingle, higher, {1.25, 0}));
+  EXPECT_EQ(score.score.near, 2U);
+  EXPECT_EQ(score.score.spurious, 1U);
+  ASSERT_TRUE(score.score_fed.has_value());
+  EXPECT_EQ(score.score_fed->truth, 0U);
+  EXPECT_EQ(score.score_fed->near, 2U);
+  EXPECT_EQ(score.score_fed->spurious, 2U);
+}
+
+TEST(JudgeQueries, AsksADetectorThatFailedNoMore) {
+  auto asked = std::make_shared<int>(0);
+  const auto failing = detector("failing", [asked](const ImpactQuery&) -> ReportedImpact {
+    if (++*asked == 3) throw std::runtime_error("out of order");
+    return {true, 0.5};
+  });
+  std::string text;
+  for (int i = 0; i < 5000; ++i) text += kMeets;
+  const DetectorScore score = score_of(text, failing);
+  EXPECT_EQ(*asked, 3);
+  EXPECT_EQ(score.failure, "out of order");
+  EXPECT_EQ(score.failed_at, 17U);
+  EXPECT_EQ(score.queries, 2U);
+  expect_score(score.score, {2, 2, 2, 0, 0});
+}
+
 TEST(JudgeQueries, JudgesSinglePrecisionOnWhatItWasFedAsWell) {
   // Fed: the vertex two metres higher. Then the first query ends above, and the others as they were
   // or in contact: the last one, below the triangle all the time, goes from -1 to 0.
@@ -263,7 +373,7 @@ TEST(JudgeQueries, LeavesOutDetectorsOfTheOtherKind) {
     throw std::logic_error("asked");
   };
   const Answers no = [](const ImpactQuery&) { return ReportedImpact{}; };
-  const std::vector<ImpactDetectorInfo> detectors = {
+  const std::vector<QueryDetector> detectors = {
       detector("edges", never, {kEdge}), detector("both", no), detector("faces", no, {kFace})};
   const FileScore score = judged(kMeets, detectors);
   ASSERT_EQ(score.detectors.size(), 2U);
@@ -350,11 +460,11 @@ TEST(JudgeQueries, AddsUpOverBlocks) {
   }
   const Scratch scratch;
   auto asked = std::make_shared<std::size_t>(0);
-  const ImpactDetectorInfo second = detector("second", [asked](const ImpactQuery&) {
+  const QueryDetector second = detector("second", [asked](const ImpactQuery&) {
     const std::size_t i = (*asked)++;
     return i % 2 == 0 ? ReportedImpact{true, 0.25} : ReportedImpact{};
   });
-  const ImpactDetectorInfo all = detector("all", [](const ImpactQuery&) {
+  const QueryDetector all = detector("all", [](const ImpactQuery&) {
     return ReportedImpact{true, 1.0};
   });
   const FileScore score = judge_queries(

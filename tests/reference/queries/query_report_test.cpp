@@ -2,36 +2,56 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 namespace contactcheck::queries {
 namespace {
 
 using Json = nlohmann::json;
 
+/// Truth, reported, hit, missed, spurious, and the first lines of the last two.
+ImpactScore counts(const std::array<std::uint64_t, 5>& n, std::optional<std::size_t> first_missed,
+                   std::optional<std::size_t> first_spurious) {
+  ImpactScore score;
+  score.truth = n[0];
+  score.reported = n[1];
+  score.hit = n[2];
+  score.missed = n[3];
+  score.spurious = n[4];
+  score.first_missed = first_missed;
+  score.first_spurious = first_spurious;
+  return score;
+}
+
 /// Two detectors, one of them right, on queries of two sizes.
 FileScore score_by_hand() {
   DetectorScore exact;
   exact.detector = "exact";
   exact.queries = 1234;
-  exact.score = {700, 700, 700, 0, 0, std::nullopt, std::nullopt};
-  exact.times = {700, 3, 2, 1e-13, 2e-13, 4.5e-13, 0, 0, 2e-14};
+  exact.score = counts({700, 700, 700, 0, 0}, std::nullopt, std::nullopt);
+  exact.times = {700, 4, 3, 2, 1e-13, 2e-13, 4.5e-13, 0, 0, 2e-14};
   exact.cost = {0.254, 1.5, 9.875, 123.4, 801};
-  exact.decades = {{-2, {600, 600, 600, 0, 0, std::nullopt, std::nullopt}, 4.5e-13, 2e-14},
-                   {0, {100, 100, 100, 0, 0, std::nullopt, std::nullopt}, 0, 0}};
+  exact.decades = {
+      {-2, counts({600, 600, 600, 0, 0}, std::nullopt, std::nullopt), 4.5e-13, 2e-14, 0, 0, 0},
+      {0, counts({100, 100, 100, 0, 0}, std::nullopt, std::nullopt), 0, 0, 0, 0, 0}};
   DetectorScore single;
   single.detector = "single";
   single.precision = Precision::kSingle;
   single.queries = 1234;
   single.refused = 34;
-  single.score = {690, 500, 400, 290, 100, 9, 17};
-  single.score_fed = ImpactScore{500, 500, 499, 1, 1, 25, 33};
+  single.score = counts({690, 500, 400, 290, 100}, 9, 17);
+  single.score_fed = counts({500, 500, 499, 1, 1}, 25, 33);
   single.cost = {0.1, 0.2, 0.3, 12, 17};
   single.errors = 10;
   single.first_error = 41;
-  single.decades = {{std::nullopt, {0, 1, 0, 0, 1, std::nullopt, 17}, 0, 0},
-                    {-2, {600, 410, 311, 289, 99, 9, 49}, 0, 0},
-                    {0, {90, 89, 89, 1, 0, 57, std::nullopt}, 0, 0}};
+  single.decades = {{std::nullopt, counts({0, 1, 0, 0, 1}, std::nullopt, 17), 0, 0, 0, 0, 0},
+                    {-2, counts({600, 410, 311, 289, 99}, 9, 49), 0, 0, 0, 0, 0},
+                    {0, counts({90, 89, 89, 1, 0}, 57, std::nullopt), 0, 0, 0, 0, 0}};
   FileScore file;
   file.name = "some/vf.csv";
   file.queries = 1234;
@@ -75,10 +95,10 @@ TEST(QueryText, OfOneQueryWithNothingWrongIsShort) {
   DetectorScore exact;
   exact.detector = "exact";
   exact.queries = 1;
-  exact.score = {1, 1, 1, 0, 0, std::nullopt, std::nullopt};
+  exact.score = counts({1, 1, 1, 0, 0}, std::nullopt, std::nullopt);
   exact.times.timed = 1;
   exact.cost = {1, 1, 1, 1, 1};
-  exact.decades = {{0, exact.score, 0, 0}};
+  exact.decades = {{0, exact.score, 0, 0, 0, 0, 0}};
   file.detectors = {exact};
   EXPECT_EQ(text_of(file), R"(ee.csv: edge-edge, 1 query, 1 contact
   the file's own truth: all 1 right
@@ -125,6 +145,36 @@ TEST(QueryText, ShowsSizesOfAllDetectorsThatAreWrong) {
 )");
 }
 
+TEST(QueryText, HasAColumnOfNearOnesWhereThereAreSome) {
+  FileScore file = score_by_hand();
+  file.detectors[1].refused = file.detectors[1].errors = 0;
+  file.detectors[1].score.near = 7;
+  file.detectors[1].score.near_max = 1.25e-6;
+  file.detectors[1].score_fed->undecided = 2;
+  const std::string text = text_of(file);
+  const std::size_t begin = text.find("  detector");
+  EXPECT_EQ(
+      text.substr(begin, text.find("  (oracle)") - begin),
+      R"(  detector                 missed  spurious           near    early     late  median us  mean us  99 % us  worst us  at line
+  exact                         0         0              0  4.5e-13  2.0e-14       0.25     1.50     9.88       123      801
+  single                      290       100  7 (1.3e-06 m)        -        -       0.10     0.20     0.30     12.00       17
+    as fed (500 contacts)       1         1        0 + 2 ?
+)");
+}
+
+TEST(QueryText, SaysWhereADetectorFailedAndWhy) {
+  FileScore file = score_by_hand();
+  file.detectors.resize(1);
+  file.detectors[0].failure = "ended in signal 11 (Segmentation fault)";
+  file.detectors[0].failed_at = 801;
+  const std::string text = text_of(file);
+  EXPECT_NE(text.find("\n  exact (failed after 1234)  "), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  exact at line 801, and was asked no more: ended in signal 11 "
+                      "(Segmentation fault)\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(QueryText, OfAFamilyHasARowForEachValue) {
   QueryFamily family;
   family.id = "small-vf";
@@ -165,36 +215,45 @@ TEST(QueryJson, HasEveryFieldOfAScore) {
   ASSERT_EQ(file.at("detectors").size(), 2U);
   EXPECT_EQ(file["detectors"][0], Json::parse(R"({
     "detector": "exact", "precision": "double", "queries": 1234, "refused": 0,
-    "score": {"truth": 700, "reported": 700, "hit": 700, "missed": 0, "spurious": 0},
-    "time_of_contact": {"timed": 700, "before": 3, "after": 2, "early_median": 1e-13,
+    "score": {"truth": 700, "reported": 700, "hit": 700, "missed": 0, "spurious": 0, "near": 0,
+        "undecided": 0, "near_max": 0.0},
+    "time_of_contact": {"timed": 700, "near_at_start": 4, "before": 3, "after": 2, "early_median": 1e-13,
       "early_99": 2e-13, "early_max": 4.5e-13, "late_median": 0.0, "late_99": 0.0,
       "late_max": 2e-14},
     "microseconds":
       {"median": 0.254, "mean": 1.5, "percentile_99": 9.875, "worst": 123.4, "worst_line": 801},
     "errors": 0,
     "decades": [
-      {"decade": -2, "score": {"truth": 600, "reported": 600, "hit": 600, "missed": 0, "spurious": 0},
-       "early_max": 4.5e-13, "late_max": 2e-14},
-      {"decade": 0, "score": {"truth": 100, "reported": 100, "hit": 100, "missed": 0, "spurious": 0},
-       "early_max": 0.0, "late_max": 0.0}]})"));
+      {"decade": -2, "score": {"truth": 600, "reported": 600, "hit": 600, "missed": 0, "spurious": 0, "near": 0,
+        "undecided": 0, "near_max": 0.0},
+       "timed": 0, "early_max": 4.5e-13, "late_max": 2e-14,
+       "answered": 0, "micros": 0.0},
+      {"decade": 0, "score": {"truth": 100, "reported": 100, "hit": 100, "missed": 0, "spurious": 0, "near": 0,
+        "undecided": 0, "near_max": 0.0},
+       "timed": 0, "early_max": 0.0, "late_max": 0.0, "answered": 0, "micros": 0.0}]})"));
   EXPECT_EQ(file["detectors"][1], Json::parse(R"({
     "detector": "single", "precision": "single", "queries": 1234, "refused": 34,
-    "score": {"truth": 690, "reported": 500, "hit": 400, "missed": 290, "spurious": 100,
+    "score": {"truth": 690, "reported": 500, "hit": 400, "missed": 290, "spurious": 100, "near": 0,
+        "undecided": 0, "near_max": 0.0,
       "first_missed": 9, "first_spurious": 17},
-    "score_fed": {"truth": 500, "reported": 500, "hit": 499, "missed": 1, "spurious": 1,
+    "score_fed": {"truth": 500, "reported": 500, "hit": 499, "missed": 1, "spurious": 1, "near": 0,
+        "undecided": 0, "near_max": 0.0,
       "first_missed": 25, "first_spurious": 33},
-    "time_of_contact": {"timed": 0, "before": 0, "after": 0, "early_median": 0.0, "early_99": 0.0,
+    "time_of_contact": {"timed": 0, "near_at_start": 0, "before": 0, "after": 0, "early_median": 0.0, "early_99": 0.0,
       "early_max": 0.0, "late_median": 0.0, "late_99": 0.0, "late_max": 0.0},
     "microseconds":
       {"median": 0.1, "mean": 0.2, "percentile_99": 0.3, "worst": 12.0, "worst_line": 17},
     "errors": 10, "first_error": 41,
     "decades": [
-      {"decade": null, "score": {"truth": 0, "reported": 1, "hit": 0, "missed": 0, "spurious": 1,
-        "first_spurious": 17}, "early_max": 0.0, "late_max": 0.0},
+      {"decade": null, "score": {"truth": 0, "reported": 1, "hit": 0, "missed": 0, "spurious": 1, "near": 0,
+        "undecided": 0, "near_max": 0.0,
+        "first_spurious": 17}, "timed": 0, "early_max": 0.0, "late_max": 0.0, "answered": 0, "micros": 0.0},
       {"decade": -2, "score": {"truth": 600, "reported": 410, "hit": 311, "missed": 289,
-        "spurious": 99, "first_missed": 9, "first_spurious": 49}, "early_max": 0.0, "late_max": 0.0},
-      {"decade": 0, "score": {"truth": 90, "reported": 89, "hit": 89, "missed": 1, "spurious": 0,
-        "first_missed": 57}, "early_max": 0.0, "late_max": 0.0}]})"));
+        "spurious": 99, "near": 0,
+        "undecided": 0, "near_max": 0.0, "first_missed": 9, "first_spurious": 49}, "timed": 0, "early_max": 0.0, "late_max": 0.0, "answered": 0, "micros": 0.0},
+      {"decade": 0, "score": {"truth": 90, "reported": 89, "hit": 89, "missed": 1, "spurious": 0, "near": 0,
+        "undecided": 0, "near_max": 0.0,
+        "first_missed": 57}, "timed": 0, "early_max": 0.0, "late_max": 0.0, "answered": 0, "micros": 0.0}]})"));
 }
 
 TEST(QueryJson, KeepsFilesInTheirOrderAndEndsWithALine) {

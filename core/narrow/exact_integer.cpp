@@ -149,6 +149,17 @@ LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::subtract_magnitud
 }
 
 template <std::size_t kInline, std::size_t kLargest>
+double LimbInteger<kInline, kLargest>::scaled(std::size_t limbs_in_all) const {
+  // Two limbs have all that a double can hold, and what is 16 limbs below is nothing beside it.
+  double value = 0, unit = 1;
+  for (std::size_t i = limbs_in_all; i > 0 && limbs_in_all - i < 16; --i) {
+    unit *= 0x1p-64;
+    if (i <= size_) value += static_cast<double>(limbs()[i - 1]) * unit;
+  }
+  return negative_ ? -value : value;
+}
+
+template <std::size_t kInline, std::size_t kLargest>
 LimbInteger<kInline, kLargest> LimbInteger<kInline, kLargest>::operator-() const {
   LimbInteger result = *this;
   result.negative_ = size_ > 0 && !negative_;

@@ -37,6 +37,11 @@ class LimbInteger {
   /// -1, 0 or +1.
   int sign() const { return size_ == 0 ? 0 : (negative_ ? -1 : 1); }
 
+  /// Limbs that are used; 0 of zero.
+  std::size_t size() const { return size_; }
+  /// About value / 2^(64 limbs): a guess without a bound. @pre size() <= limbs
+  double scaled(std::size_t limbs) const;
+
   LimbInteger operator-() const;
 
   friend LimbInteger operator+(const LimbInteger& a, const LimbInteger& b) {

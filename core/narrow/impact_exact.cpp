@@ -406,13 +406,46 @@ Form restricted(const Form& form, const Dyadic& part) {
   return result;
 }
 
+/// The sign of the form at t = k / 2^halvings.
+int sign_at(const Form& form, const Dyadic& place) {
+  const WideInteger t = WideInteger::from_unsigned(place.k);
+  const WideInteger s = WideInteger::from_unsigned((std::uint64_t{1} << place.halvings) - place.k);
+  // Horner's scheme in t / s.
+  WideInteger value = form[form.degree], power = s;
+  for (int i = form.degree - 1; i >= 0; --i) {
+    value = value * t + form[i] * power;
+    if (i > 0) power = power * s;
+  }
+  return value.sign();
+}
+
+/// The part of width 2^-41 in which doubles see the single sign change of d within `part`. A guess:
+/// they may be wrong.
+Dyadic guessed(const Form& d, Dyadic part, int before) {
+  std::size_t limbs = 0;
+  for (int i = 0; i <= d.degree; ++i) limbs = std::max(limbs, d[i].size());
+  std::array<double, 7> c;
+  for (int i = 0; i <= d.degree; ++i) c[Form::at(i)] = d[i].scaled(limbs);
+  while (part.halvings < kDeepest) {
+    const Dyadic right{2 * part.k + 1, part.halvings + 1};
+    const double t = right.times().low, s = 1 - t;
+    double value = c[Form::at(d.degree)], power = s;
+    for (int i = d.degree - 1; i >= 0; --i, power *= s) value = value * t + c[Form::at(i)] * power;
+    part = value * before > 0 ? right : Dyadic{2 * part.k, right.halvings};
+  }
+  return part;
+}
+
 /// A width of 2^-41 around the single root of d within `part`, or the root itself.
 /// @pre one sign change of d within `part`
 Times narrowed(const Form& d, Dyadic part) {
   const int before = restricted(d, part).first_sign();
+  const Dyadic guess = guessed(d, part, before);
+  if (sign_at(d, guess) == before && sign_at(d, {guess.k + 1, guess.halvings}) == -before)
+    return guess.times();
   while (part.halvings < kDeepest) {
     const Dyadic right{2 * part.k + 1, part.halvings + 1};
-    const int at_middle = restricted(d, right)[0].sign();
+    const int at_middle = sign_at(d, right);
     if (at_middle == 0) return {right.times().low, right.times().low};
     part = at_middle == before ? right : Dyadic{2 * part.k, right.halvings};
   }

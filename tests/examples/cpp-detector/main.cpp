@@ -1,4 +1,5 @@
-// contactcheck with two detectors more. Its workers are this program again: main is this call alone.
+// contactcheck with two detectors more. Its workers are this program again: main is this call
+// alone.
 #include "reference/reference.h"
 #include "sweep_detector.h"
 

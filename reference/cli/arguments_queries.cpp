@@ -34,7 +34,7 @@ void add_queries(CommandLine& line) {
   add_commands(*queries, arguments->commands);
   queries
       ->add_option("--cap", arguments->cap.absolute,
-                   "largest tolerance that counts as near (default: as declared)")
+                   "farther apart than this no report is near (default: as it tolerates)")
       ->check(number_in(0, 1e300, "0 to 1e300"))
       ->type_name("METRES");
   queries

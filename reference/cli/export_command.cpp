@@ -101,12 +101,14 @@ int export_command(const ExportArguments& arguments, const DetectorCatalog& cata
   const auto look = [&guard] {
     if (guard.interrupted()) guard.pass_on();
   };
+  fs::path last;
   for (const fs::path& file : files) {
     scene::Scene scene = scene::load_any_scene(file, arguments.frames);
     scene::record_simulation(
         catalog, [&](std::size_t) { look(); }, scene);
     scene::place_sweep([&](std::size_t) { look(); }, scene);
-    const fs::path folder = arguments.out / scene.id;
+    last = scene.id;
+    const fs::path folder = arguments.out / last;
     if (arguments.queries) {
       const auto write = [&](const fs::path& made) {
         fs::create_directories(made);
@@ -124,11 +126,12 @@ int export_command(const ExportArguments& arguments, const DetectorCatalog& cata
       print_summary(folder, export_whole(scene.id, arguments.out, write));
     }
   }
+  const std::string made =
+      (arguments.out / (files.size() == 1 ? last : fs::path("SCENE"))).string();
   if (arguments.queries)
-    std::printf("to judge detectors on them: contactcheck queries %s/SCENE/*.csv\n",
-                arguments.out.c_str());
+    std::printf("to judge detectors on them: contactcheck queries %s/*.csv\n", made.c_str());
   if (!arguments.queries || arguments.sample.certificates)
-    std::printf("to check them: python3 %s/SCENE/check.py\n", arguments.out.c_str());
+    std::printf("to check them: python3 %s/check.py\n", made.c_str());
   return 0;
 }
 

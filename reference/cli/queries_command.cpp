@@ -61,11 +61,13 @@ std::vector<queries::QueryTargets> targets_of(const QueriesArguments& arguments)
     if (!arguments.kind.empty())
       kind = arguments.kind == name_of(ImpactKind::edge_edge) ? ImpactKind::edge_edge
                                                               : ImpactKind::vertex_triangle;
-    if (!kind)
+    if (!kind) {
+      queries::QueryReader(target.file, ImpactKind::vertex_triangle);  // one that is not there
       throw InputError(
           target.file.string() +
           ": neither its name (vf.csv, 326ee.csv) nor a folder (vertex-face, edge-edge) "
           "says of what kind its queries are; --kind does");
+    }
     target.kind = *kind;
     if (!arguments.truths.empty()) target.truth = arguments.truths[i];
     targets.push_back(std::move(target));
@@ -148,7 +150,7 @@ std::vector<queries::FileScore> judge_families(const QueriesArguments& arguments
 
 /// queries.md beside its pictures.
 void write_report(const std::filesystem::path& out, const std::vector<queries::FileScore>& scores,
-                  const std::string& text) {
+                  const ImpactTolerance& cap, const std::string& text) {
   std::string report = "# Detectors of moving elements\n\n";
   for (const auto& [name, picture] :
        {std::pair{"queries-times.svg", queries::time_error_picture(scores)},
@@ -160,7 +162,7 @@ void write_report(const std::filesystem::path& out, const std::vector<queries::F
     report += std::string("![](") + name + ")\n\n";
   }
   write_file_atomically(out / "queries.md", report + "```text\n" + text + "```\n");
-  write_file_atomically(out / "queries.json", queries::json_of(scores));
+  write_file_atomically(out / "queries.json", queries::json_of(scores, cap));
   std::printf("\n%s\n", (out / "queries.md").c_str());
 }
 
@@ -180,7 +182,7 @@ int queries_command(const QueriesArguments& arguments, const DetectorCatalog& ca
                        [](const auto& d) { return d.errors > 0 || !d.failure.empty(); });
   });
   check_out(arguments.out);
-  write_report(arguments.out, scores, printed.text());
+  write_report(arguments.out, scores, arguments.cap, printed.text());
   return errors ? process::kExitUnlistedError : 0;
 }
 

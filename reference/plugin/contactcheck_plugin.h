@@ -112,7 +112,8 @@ typedef struct contactcheck_option {
   uint32_t reserved;
 } contactcheck_option;
 
-/* An option's value for this detector, checked: numbers in their shortest form. */
+/* An option's value for this detector, checked: whole numbers as digits, others in their shortest
+ * form (1e+06), which strtod reads. */
 typedef struct contactcheck_setting {
   const char* name;
   const char* value;

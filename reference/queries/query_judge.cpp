@@ -1,5 +1,7 @@
 #include "reference/queries/query_judge.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -79,13 +81,22 @@ struct Verdict {
 };
 
 Verdict verdict_on(const ImpactQuery& query, bool truth, const ReportedImpact& answer,
-                   const ImpactTolerance& tolerance) {
+                   const ImpactTolerance& tolerance, const ImpactTolerance& cap) {
   Verdict verdict{truth, answer.contact};
   if (truth || !answer.contact || (tolerance.absolute == 0 && tolerance.of_start == 0))
     return verdict;
-  const oracle::NearMiss miss = oracle::near_miss(query, tolerance);
-  verdict.near = miss.verdict;
-  verdict.distance = miss.at_most;
+  verdict.near = oracle::NearVerdict::kNear;
+  for (const ImpactTolerance& limit :
+       {tolerance, ImpactTolerance{cap.absolute, 0}, ImpactTolerance{0, cap.of_start}}) {
+    if (!std::isfinite(limit.absolute) || !std::isfinite(limit.of_start)) continue;
+    const oracle::NearMiss miss = oracle::near_miss(query, limit);
+    if (miss.verdict != oracle::NearVerdict::kNear) {
+      verdict.near = miss.verdict;
+      return verdict;
+    }
+  }
+  // Within a large tolerance the distance itself is not looked for; without one it is.
+  verdict.distance = oracle::near_miss(query, {}).at_most;
   return verdict;
 }
 
@@ -131,6 +142,7 @@ class Asked {
       : session_(detector.open()), cap_(cap) {
     score_.detector = detector.name;
     score_.precision = detector.precision;
+    score_.tolerance = session_->tolerance();
     if (detector.precision == Precision::kSingle) score_.score_fed.emplace();
   }
 
@@ -139,7 +151,7 @@ class Asked {
     std::vector<ImpactQuery> queries;
     std::vector<const Judged*> asked;
     for (const Judged& judged : block) {
-      if (!judged.query.in_doubles) {
+      if (!judged.query.in_doubles || is_beyond_precision(judged.query.query)) {
         ++score_.queries;
         ++score_.refused;
         continue;
@@ -161,9 +173,7 @@ class Asked {
         continue;
       }
       meter_.add(answers[i].micros, asked[i]->query.line);
-      DecadeScore& decade = decades_[decade_of(asked[i]->query.query)];
-      ++decade.answered;
-      decade.micros += (answers[i].micros - decade.micros) / static_cast<double>(decade.answered);
+      decades_[decade_of(asked[i]->query.query)].micros.add(answers[i].micros);
       judge(*asked[i], answers[i].impact);
     }
   }
@@ -176,20 +186,29 @@ class Asked {
     times.early_99 = early_.at(0.99);
     times.late_median = late_.at(0.5);
     times.late_99 = late_.at(0.99);
-    for (auto& [decade, score] : decades_) {
-      score.decade = decade;
-      score_.decades.push_back(score);
+    for (auto& [number, decade] : decades_) {
+      decade.score.decade = number;
+      decade.score.answered = decade.micros.size();
+      decade.score.micros = decade.micros.at(0.5);
+      score_.decades.push_back(decade.score);
     }
     return std::move(score_);
   }
 
  private:
-  /// What it calls contact in this query, under the cap.
+  /// No float holds some coordinate of it: there is no query that it would answer.
+  bool is_beyond_precision(const ImpactQuery& query) const {
+    if (!score_.score_fed) return false;
+    const ImpactQuery fed = session_->fed(query);
+    return !std::ranges::all_of(fed.start, &Vec3::allFinite) ||
+           !std::ranges::all_of(fed.end, &Vec3::allFinite);
+  }
+
+  /// What it calls contact in this query.
   ImpactTolerance tolerance_of(const ReportedImpact& answer) const {
     ImpactTolerance tolerance = session_->tolerance();
-    if (answer.tolerance) tolerance.absolute = *answer.tolerance;
-    return {std::min(tolerance.absolute, cap_.absolute),
-            std::min(tolerance.of_start, cap_.of_start)};
+    if (answer.tolerance) tolerance = {*answer.tolerance, 0};
+    return tolerance;
   }
 
   void judge(const Judged& judged, const ReportedImpact& answer) {
@@ -201,22 +220,27 @@ class Asked {
         answer.tolerance && !(*answer.tolerance >= 0 && std::isfinite(*answer.tolerance));
     if (answer.contact && (time_is_none || tolerance_is_none)) {
       // Neither a hit nor a miss.
-      if (score_.errors++ == 0) score_.first_error = line;
+      if (score_.errors++ == 0) {
+        score_.first_error = line;
+        score_.first_error_is = time_is_none
+                                    ? fmt::format("a time of {:g}", *answer.time)
+                                    : fmt::format("a tolerance of {:g} m", *answer.tolerance);
+      }
       return;
     }
     const ImpactTolerance tolerance = tolerance_of(answer);
-    DecadeScore& decade = decades_[decade_of(query)];
-    const Verdict verdict = verdict_on(query, truth.contact, answer, tolerance);
+    DecadeScore& decade = decades_[decade_of(query)].score;
+    const Verdict verdict = verdict_on(query, truth.contact, answer, tolerance, cap_);
     add(score_.score, verdict, line);
     add(decade.score, verdict, line);
     if (score_.score_fed) {
       const ImpactQuery fed = session_->fed(query);
       const bool truth_fed = oracle::elementary_impact(fed).contact;
-      add(*score_.score_fed, verdict_on(fed, truth_fed, answer, tolerance), line);
+      add(*score_.score_fed, verdict_on(fed, truth_fed, answer, tolerance, cap_), line);
     }
     if (!truth.contact || !answer.contact || !answer.time) return;
     if (*answer.time == 0 && !truth.starts_in_contact &&
-        within_at_start(query, tolerance.absolute)) {
+        within_at_start(query, std::min(tolerance.absolute, cap_.absolute))) {
       ++score_.times.near_at_start;
       return;
     }
@@ -237,7 +261,11 @@ class Asked {
   std::unique_ptr<QuerySession> session_;
   ImpactTolerance cap_;
   DetectorScore score_;
-  std::map<std::optional<int>, DecadeScore> decades_;
+  struct Decade {
+    DecadeScore score;
+    Values micros;
+  };
+  std::map<std::optional<int>, Decade> decades_;
   CostMeter meter_;
   Values early_, late_;
 };
@@ -253,6 +281,8 @@ FileScore judge_queries(const std::string& name, ImpactKind kind, const NextQuer
   for (const QueryDetector& detector : detectors)
     if (std::find(detector.kinds.begin(), detector.kinds.end(), kind) != detector.kinds.end())
       asked.emplace_back(detector, cap);
+    else
+      result.of_another_kind.push_back(detector.name);
   CostMeter oracle_cost;
   std::vector<Judged> block;
   std::map<std::optional<int>, DecadeTruth> decades;

@@ -49,7 +49,7 @@ struct DecadeScore {
   ImpactScore score;
   double early_max = 0, late_max = 0;
   std::uint64_t timed = 0;  ///< hits with a time
-  double micros = 0;        ///< mean of a query that it answered
+  double micros = 0;        ///< median of a query that it answered
   std::uint64_t answered = 0;
 };
 
@@ -74,6 +74,8 @@ struct DetectorScore {
   /// Times that are no number or outside [0, 1], tolerances that are none.
   std::uint64_t errors = 0;
   std::optional<std::size_t> first_error;
+  std::string first_error_is;  ///< "a time of nan"
+  ImpactTolerance tolerance;   ///< as it is declared, with its options
   /// One sentence: it crashed, hung or failed, and was asked no more; empty otherwise.
   std::string failure;
   std::optional<std::size_t> failed_at;  ///< the line of the query that it did not answer
@@ -88,6 +90,7 @@ struct FileScore {
   std::uint64_t file_truths = 0, file_wrong = 0;  ///< queries with a truth in a file; of them wrong
   std::vector<std::size_t> wrong_lines;           ///< the first few
   std::vector<DecadeTruth> decades;               ///< ascending; those that occur
+  std::vector<std::string> of_another_kind;       ///< detectors that were not asked
   QueryCost oracle;
   std::vector<DetectorScore> detectors;
 };
@@ -101,7 +104,8 @@ struct QueryTargets {
 /// Gives the next query; false when there is none.
 using NextQuery = std::function<bool(FileQuery&)>;
 
-/// What a declared tolerance excuses at most.
+/// Farther than either of these, no report is near, whatever a detector tolerates: metres, and a
+/// share of the distance at the start.
 inline constexpr ImpactTolerance kNoCap = {std::numeric_limits<double>::infinity(),
                                            std::numeric_limits<double>::infinity()};
 

@@ -14,7 +14,7 @@ namespace contactcheck::queries {
 /// files; early as solid lines, late as dashed ones. Empty where no detector reports times.
 std::string time_error_picture(const std::vector<FileScore>& scores);
 
-/// An SVG document: mean microseconds a query against the longest edge. Empty without queries.
+/// An SVG document: median microseconds a query against the longest edge. Empty without queries.
 std::string cost_picture(const std::vector<FileScore>& scores);
 
 }  // namespace contactcheck::queries

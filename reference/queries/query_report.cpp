@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "reference/text/counted.h"
 #include "reference/text/described_json.h"
@@ -15,12 +16,20 @@ constexpr std::array<ImpactKind, 2> values_of(ImpactKind) {
   return {ImpactKind::vertex_triangle, ImpactKind::edge_edge};
 }
 
+template <typename Io>
+void fields(Io& io, ImpactTolerance& t) {
+  CONTACTCHECK_FIELDS(io, t, absolute, of_start);
+}
+
 }  // namespace contactcheck
 
 namespace contactcheck::queries {
 namespace {
 
 using Row = std::vector<std::string>;
+
+/// A time that is not farther from the true interval is right in the tables of families.
+constexpr double kRightTime = 1e-6;
 
 std::string whole(std::uint64_t n) { return std::to_string(n); }
 
@@ -92,12 +101,37 @@ std::string errors_of(const DetectorScore& d) {
   if (d.score.missed > 0) words.push_back(whole(d.score.missed) + " missed");
   if (d.score.spurious > 0) words.push_back(whole(d.score.spurious) + " spurious");
   if (has_near(d.score)) words.push_back(near_text(d.score) + " near");
-  if (d.times.early_max > 1e-6) words.push_back("early " + fraction(d.times.early_max));
-  if (d.times.late_max > 1e-6) words.push_back("late " + fraction(d.times.late_max));
+  if (d.times.near_at_start > 0)
+    words.push_back(whole(d.times.near_at_start) + " near at the start");
+  if (d.times.early_max > kRightTime) words.push_back("early " + fraction(d.times.early_max));
+  if (d.times.late_max > kRightTime) words.push_back("late " + fraction(d.times.late_max));
   if (d.errors > 0) words.push_back(text::counted(d.errors, "error"));
   if (d.refused > 0) words.push_back(whole(d.refused) + " refused");
   if (!d.failure.empty()) words.push_back("failed");
   return words.empty() ? "ok" : text::joined(words);
+}
+
+/// It is wrong, whatever it tolerates; what it refuses it does not answer.
+bool errs(const DetectorScore& d) {
+  return d.score.missed + d.score.spurious + d.errors > 0 || !d.failure.empty() ||
+         std::max(d.times.early_max, d.times.late_max) > kRightTime;
+}
+
+/// A line for each detector whose answers were errors, or that failed: where it first did, and why.
+std::string failures_of(const QueryFamily& family, const std::vector<FileScore>& scores) {
+  std::string out;
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    for (const DetectorScore& d : scores[i].detectors) {
+      if ((d.failure.empty() && d.errors == 0) || std::ranges::count(told, d.detector) > 0)
+        continue;
+      told.push_back(d.detector);
+      const std::size_t query =
+          d.failure.empty() ? d.first_error.value_or(0) : d.failed_at.value_or(0);
+      out += fmt::format("  {} at {:g}, query {}: {}\n", d.detector, family.values[i], query,
+                         d.failure.empty() ? d.first_error_is : d.failure);
+    }
+  return out;
 }
 
 std::string decade_text(const std::optional<int>& decade) {
@@ -135,11 +169,16 @@ std::string first_wrong(const FileScore& file) {
     if (d.score.first_missed) words.push_back("missed at line " + whole(*d.score.first_missed));
     if (d.score.first_spurious)
       words.push_back("spurious at line " + whole(*d.score.first_spurious));
-    if (d.first_error) words.push_back("error at line " + whole(*d.first_error));
+    if (d.first_error)
+      words.push_back(fmt::format("error at line {} ({})", *d.first_error, d.first_error_is));
     if (!words.empty()) out += "  first of " + d.detector + ": " + text::joined(words) + '\n';
     if (!d.failure.empty())
-      out += fmt::format("  {} at line {}, and was asked no more: {}\n", d.detector,
+      out += fmt::format("  {} failed at line {} and was asked no more: {}\n", d.detector,
                          d.failed_at.value_or(0), d.failure);
+    if (d.times.near_at_start > 0)
+      out +=
+          fmt::format("  {}: {} reported at t = 0, where the elements are within its tolerance\n",
+                      d.detector, text::counted(d.times.near_at_start, "contact"));
   }
   return out;
 }
@@ -186,6 +225,9 @@ std::string text_of(const FileScore& score) {
     last.push_back(cell);
   rows.push_back(std::move(last));
   out += table(rows) + first_wrong(score);
+  if (!score.of_another_kind.empty())
+    out += fmt::format("  not asked, since they do not answer {}: {}\n", name_of(score.kind),
+                       text::joined(score.of_another_kind));
   const std::string lengths = by_length(score);
   if (!lengths.empty()) out += '\n' + lengths;
   return out;
@@ -200,7 +242,8 @@ std::string text_of(const QueryFamily& family, const std::vector<FileScore>& sco
     for (const DetectorScore& d : score.detectors) row.push_back(errors_of(d));
     rows.push_back(std::move(row));
   }
-  return fmt::format("{}: {}\n", family.id, family.title) + table(rows);
+  return fmt::format("{}: {}\n", family.id, family.title) + table(rows) +
+         failures_of(family, scores);
 }
 
 std::string summary_of(const std::vector<QueryFamily>& families,
@@ -218,15 +261,16 @@ std::string summary_of(const std::vector<QueryFamily>& families,
       std::string cell = "-";  // it does not answer this kind
       for (std::size_t i = 0; i < family.values.size(); ++i)
         for (const DetectorScore& d : scores.at(at + i).detectors) {
-          if (d.detector != name || cell.starts_with("from")) continue;
-          cell = errors_of(d) == "ok" ? "ok" : fmt::format("from {:g}", family.values[i]);
+          if (d.detector != name || (cell != "-" && cell != "ok")) continue;
+          cell = errs(d) ? fmt::format("{:g}", family.values[i]) : "ok";
         }
       row.push_back(cell);
     }
     at += family.values.size();
     rows.push_back(std::move(row));
   }
-  return "Where each detector begins to err (ok: nowhere)\n" + table(rows);
+  return "First value of each family at which a detector errs (ok: at none; near is no error)\n" +
+         table(rows);
 }
 
 template <typename Io>
@@ -258,20 +302,24 @@ void fields(Io& io, DetectorScore& d) {
   io("time_of_contact", d.times);
   io("microseconds", d.cost);
   CONTACTCHECK_FIELDS(io, d, errors);
-  CONTACTCHECK_FIELDS(io.unless_empty, d, first_error, failure, failed_at, decades);
+  CONTACTCHECK_FIELDS(io, d, tolerance);
+  CONTACTCHECK_FIELDS(io.unless_empty, d, first_error, first_error_is, failure, failed_at, decades);
 }
 template <typename Io>
 void fields(Io& io, FileScore& f) {
   CONTACTCHECK_FIELDS(io, f, name, kind, queries, contacts, starts_in_contact, not_doubles,
                       file_truths, file_wrong);
-  CONTACTCHECK_FIELDS(io.unless_empty, f, wrong_lines);
+  CONTACTCHECK_FIELDS(io.unless_empty, f, wrong_lines, of_another_kind);
   CONTACTCHECK_FIELDS(io, f, decades);
   io("oracle_microseconds", f.oracle);
   CONTACTCHECK_FIELDS(io, f, detectors);
 }
 
-std::string json_of(const std::vector<FileScore>& scores) {
-  text::Json json = {{"schema", kQueriesSchema}, {"files", text::described(scores)}};
+std::string json_of(const std::vector<FileScore>& scores, const ImpactTolerance& cap) {
+  text::Json json = {{"schema", kQueriesSchema}, {"version", CONTACTCHECK_VERSION}};
+  if (std::isfinite(cap.absolute)) json["cap"] = cap.absolute;
+  if (std::isfinite(cap.of_start)) json["cap_of_start"] = cap.of_start;
+  json["files"] = text::described(scores);
   return json.dump(1) + "\n";
 }
 

@@ -22,7 +22,7 @@ std::string text_of(const QueryFamily& family, const std::vector<FileScore>& sco
 std::string summary_of(const std::vector<QueryFamily>& families,
                        const std::vector<FileScore>& scores);
 
-/// The document of queries.json.
-std::string json_of(const std::vector<FileScore>& scores);
+/// The document of queries.json. `cap`: as it was judged.
+std::string json_of(const std::vector<FileScore>& scores, const ImpactTolerance& cap = kNoCap);
 
 }  // namespace contactcheck::queries

@@ -12,9 +12,9 @@ struct LinePoint {
 };
 
 struct LineSeries {
-  std::string name;        ///< in the legend; empty: it has none of its own
-  std::size_t colour = 0;  ///< below kSeriesColours
-  bool dashed = false;
+  std::string name;               ///< in the legend; empty: it has none of its own
+  std::size_t colour = 0;         ///< below kSeriesColours
+  bool dashed = false;            ///< with squares, not circles, at its points
   std::vector<LinePoint> points;  ///< ascending; x above 0, y at least 0
 };
 
@@ -23,6 +23,7 @@ struct LineChart {
   std::vector<LineSeries> series;
   /// What is below it, 0 above all, lies on the lowest line, which is called "0".
   double lowest = 0;
+  double from = 0, to = 0;        ///< of the axis across; 0: as the points have it
   std::vector<std::string> foot;  ///< lines beneath
 };
 

@@ -107,6 +107,44 @@ TEST(DetectorCatalog, DefaultsSpelledOtherwiseAreStillLeftOut) {
   EXPECT_EQ(catalog.parse("other:margin=0.001").name, "other:margin=0.001");
 }
 
+// Plug-ins read them with strtol.
+TEST(DetectorCatalog, WholeNumbersHaveDigitsAlone) {
+  DetectorCatalog catalog;
+  DetectorInfo info;
+  info.id = "other";
+  info.options.push_back({"most", "1e6", {}, -0x1p60, 0x1p60, true, "how many"});
+  info.options.push_back({"length", "1e6", {}, 0.0, 1e300, false, "metres"});
+  catalog.add(info);
+  EXPECT_EQ(catalog.parse("other").options, (Options{{"length", "1e+06"}, {"most", "1000000"}}));
+  EXPECT_EQ(catalog.parse("other:most=1000000").name, "other");
+  EXPECT_EQ(catalog.parse("other:most=-0").name, "other:most=0");
+  EXPECT_EQ(catalog.parse("other:most=-3e9").name, "other:most=-3000000000");
+  EXPECT_EQ(catalog.parse("other:most=9007199254740991").name, "other:most=9007199254740991");
+  EXPECT_EQ(catalog.parse("other:most=9007199254740992").name, "other:most=9007199254740992");
+  EXPECT_EQ(catalog.parse("other:most=1e17").name, "other:most=1e+17");
+  EXPECT_EQ(catalog.parse("other:length=2e6").name, "other:length=2e+06");
+}
+
+TEST(DetectorCatalog, KnowsDetectorsOfQueriesApartFromThoseOfFrames) {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  ImpactDetectorInfo info;
+  info.id = "both";
+  info.options.push_back({"tolerance", "1e-6", {}, 0.0, 1.0, false, "metres"});
+  catalog.add(info);
+  EXPECT_EQ(catalog.parse_impact("exact").id, "exact");
+  EXPECT_EQ(catalog.parse_impact("both:tolerance=0.5").name, "both:tolerance=0.5");
+  EXPECT_THROW(catalog.parse_impact("both:tolerance=2"), InputError);
+  EXPECT_EQ(catalog.find_impact("ffd-aabb"), nullptr);
+  EXPECT_EQ(catalog.find("exact"), nullptr);
+  EXPECT_THROW(catalog.parse_impact("ffd-aabb"), InputError);
+  EXPECT_THROW(catalog.parse("both"), InputError);
+  DetectorInfo frames;
+  frames.id = "both";
+  catalog.add(frames);
+  EXPECT_EQ(catalog.parse("both").options, Options{}) << "one of each kind may share a name";
+}
+
 TEST(DetectorCatalog, UnknownDetectorIsNamed) {
   EXPECT_EQ(error_of("ffd-abab:cell=2"),
             "unknown detector \"ffd-abab\"; did you mean ffd-aabb? `contactcheck list` names all");

@@ -105,6 +105,26 @@ TEST(WideInteger, RingLawsAcrossTheInlineSize) {
   }
 }
 
+// Of values of any size, next to the largest one, for a guess: what is far below is zero.
+TEST(WideInteger, ScaledIsAboutTheQuotientByAPowerOfLimbs) {
+  for (const std::size_t size :
+       {std::size_t{1}, kInlineLimbs, kInlineLimbs + 1, std::size_t{100}}) {
+    const WideInteger value = power(size - 1) * wide(0x1.8p62);
+    EXPECT_EQ(value.size(), size);
+    EXPECT_EQ(value.scaled(size), 0x1.8p-2) << size;
+    EXPECT_EQ((-value).scaled(size), -0x1.8p-2);
+    EXPECT_EQ(value.scaled(size + 1), 0x1.8p-66);
+    EXPECT_EQ(value.scaled(size + 15), std::ldexp(0x1.8p-2, -15 * 64));
+    EXPECT_EQ(value.scaled(size + 17), 0);
+    EXPECT_EQ(WideInteger().scaled(size), 0);
+  }
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 100; ++i) {
+    const double a = static_cast<double>(random()), b = static_cast<double>(random());
+    EXPECT_NEAR((wide(a) * wide(b)).scaled(2), a * 0x1p-64 * (b * 0x1p-64), 0x1p-50);
+  }
+}
+
 TEST(WideInteger, LargestSizeFits) {
   constexpr std::size_t kHalf = WideInteger::kMaxLimbs / 2;
   EXPECT_EQ(WideInteger::kMaxLimbs, 3552U);

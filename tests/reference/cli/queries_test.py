@@ -17,7 +17,7 @@ MOST_MEMORY, MOST_GROWTH = 150, 12  # MiB
 
 def scores(folder):
     document = json.loads((folder / "out" / "queries.json").read_text(encoding="utf-8"))
-    assert set(document) == {"schema", "files"} and document["schema"] == "contactcheck-queries/1"
+    assert set(document) == {"schema", "version", "files"} and document["schema"] == "contactcheck-queries/1"
     return document["files"]
 
 

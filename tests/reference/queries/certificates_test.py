@@ -172,7 +172,7 @@ def test_a_sample_has_the_same_queries_with_and_without_proofs(exported, tmp_pat
     text = successful(*words, "--certificates", "--out", tmp_path / "with").out
     successful(*words, "--out", tmp_path / "without")
     assert text.count(", 0 without proof\n") == 2
-    assert f"to check them: python3 {tmp_path / 'with'}/SCENE/check.py" in text
+    assert f"to check them: python3 {tmp_path / 'with'}/" in text
     proved = Export(tmp_path / "with" / "tiny")
     assert proved.check().exit_code == 0
     for kind in KINDS:

@@ -178,6 +178,7 @@ TEST(JudgeQueries, CountsTimesThatAreNoneAsErrorsAndNothingElse) {
                  in_turn({{true, 0.5}, {true, time}, {true, time}, {true, 0.5}}));
     EXPECT_EQ(score.errors, 2U) << time;
     EXPECT_EQ(score.first_error, 9U);
+    EXPECT_EQ(score.first_error_is.rfind("a time of ", 0), 0U) << score.first_error_is;
     EXPECT_EQ(score.queries, 4U);
     expect_score(score.score, {2, 2, 2, 0, 0});
     EXPECT_EQ(score.times.timed, 2U);
@@ -222,7 +223,8 @@ TEST(JudgeQueries, TellsReportsWithinTheToleranceFromSpuriousOnes) {
         NearCase{{below, 0}, kNoCap, {}, 1, 2, 0.125},
         NearCase{{10, 0}, {below, none}, {}, 1, 2, 0.125}, NearCase{{0, 0.5}, kNoCap, {}, 3, 0, 2},
         NearCase{{0, 0.5}, {none, 0.25}, {}, 2, 1, 0.5},
-        NearCase{{0.5, 0.5}, {none, 0}, {}, 2, 1, 0.5},
+        NearCase{{0.5, 0.5}, {none, 0}, {}, 0, 3, 0},
+        NearCase{{0, 0.5}, {0.5, none}, {}, 2, 1, 0.5}, NearCase{{1e9, 0}, kNoCap, {}, 3, 0, 2},
         NearCase{{0.5, 0}, kNoCap, 0.125, 1, 2, 0.125}, NearCase{{0, 0}, kNoCap, 2.0, 3, 0, 2},
         NearCase{{0, 0}, {0.25, none}, 2.0, 1, 2, 0.125}}) {
     const FileScore file = judged(kHeights, {near(c.tolerance, c.of_answer)}, kFace, c.cap);
@@ -245,6 +247,7 @@ TEST(JudgeQueries, CountsTolerancesThatAreNoneAsErrors) {
   for (const double tolerance : {kNan, -0x1p-1074, std::numeric_limits<double>::infinity()}) {
     const DetectorScore score = score_of(kHeights, near({}, tolerance));
     EXPECT_EQ(score.errors, 4U) << tolerance;
+    EXPECT_EQ(score.first_error_is.rfind("a tolerance of ", 0), 0U) << score.first_error_is;
     EXPECT_EQ(score.score.reported, 0U);
   }
 }
@@ -278,6 +281,28 @@ TEST(JudgeQueries, TellsNearFromSpuriousOnWhatItWasFed) {
   EXPECT_EQ(score.score_fed->truth, 0U);
   EXPECT_EQ(score.score_fed->near, 2U);
   EXPECT_EQ(score.score_fed->spurious, 2U);
+}
+
+TEST(JudgeQueries, AsksNobodyInFloatsAboutWhatNoFloatHolds) {
+  const Feed floats = [](const ImpactQuery& query) {
+    ImpactQuery fed = query;
+    for (auto* const points : {&fed.start, &fed.end})
+      for (Vec3& point : *points) point = point.cast<float>().cast<double>();
+    return fed;
+  };
+  auto asked = std::make_shared<int>(0);
+  const Answers answers = [asked](const ImpactQuery&) {
+    ++*asked;
+    return ReportedImpact{true};
+  };
+  const std::string largest = "340282346638528859811704183484516925440", next = largest + "0";
+  const std::string text =
+      falls(largest + ",1", "-1,1") + falls(next + ",1", "-1,1") + falls("1,1", "-" + next + ",1");
+  const DetectorScore score =
+      score_of(text, detector("floats", answers, {kFace}, Precision::kSingle, floats));
+  EXPECT_EQ(*asked, 1);
+  EXPECT_EQ(score.refused, 2U);
+  EXPECT_EQ(score.score_fed.value().hit, 1U);
 }
 
 TEST(JudgeQueries, AsksADetectorThatFailedNoMore) {
@@ -377,6 +402,7 @@ TEST(JudgeQueries, LeavesOutDetectorsOfTheOtherKind) {
       detector("edges", never, {kEdge}), detector("both", no), detector("faces", no, {kFace})};
   const FileScore score = judged(kMeets, detectors);
   ASSERT_EQ(score.detectors.size(), 2U);
+  EXPECT_EQ(score.of_another_kind, (std::vector<std::string>{"edges"}));
   EXPECT_EQ(score.detectors[0].detector, "both");
   EXPECT_EQ(score.detectors[1].detector, "faces");
 }

@@ -34,7 +34,7 @@ FileScore score_by_hand() {
   exact.detector = "exact";
   exact.queries = 1234;
   exact.score = counts({700, 700, 700, 0, 0}, std::nullopt, std::nullopt);
-  exact.times = {700, 4, 3, 2, 1e-13, 2e-13, 4.5e-13, 0, 0, 2e-14};
+  exact.times = {700, 0, 3, 2, 1e-13, 2e-13, 4.5e-13, 0, 0, 2e-14};
   exact.cost = {0.254, 1.5, 9.875, 123.4, 801};
   exact.decades = {
       {-2, counts({600, 600, 600, 0, 0}, std::nullopt, std::nullopt), 4.5e-13, 2e-14, 0, 0, 0},
@@ -49,6 +49,8 @@ FileScore score_by_hand() {
   single.cost = {0.1, 0.2, 0.3, 12, 17};
   single.errors = 10;
   single.first_error = 41;
+  single.first_error_is = "a time of nan";
+  single.tolerance = {0.5, 0.25};
   single.decades = {{std::nullopt, counts({0, 1, 0, 0, 1}, std::nullopt, 17), 0, 0, 0, 0, 0},
                     {-2, counts({600, 410, 311, 289, 99}, 9, 49), 0, 0, 0, 0, 0},
                     {0, counts({90, 89, 89, 1, 0}, 57, std::nullopt), 0, 0, 0, 0, 0}};
@@ -77,7 +79,7 @@ TEST(QueryText, HasARowForEachDetectorAndSize) {
   single (34 refused) (10 errors)     290       100        -        -       0.10     0.20     0.30     12.00       17
     as fed (500 contacts)               1         1
   (oracle)                                                                  5.00    25.00      250      1000        9
-  first of single: missed at line 9, spurious at line 17, error at line 41
+  first of single: missed at line 9, spurious at line 17, error at line 41 (a time of nan)
 
   missed / spurious by longest edge, m  contacts    single
   0 (points)                                   0     0 / 1
@@ -169,7 +171,7 @@ TEST(QueryText, SaysWhereADetectorFailedAndWhy) {
   file.detectors[0].failed_at = 801;
   const std::string text = text_of(file);
   EXPECT_NE(text.find("\n  exact (failed after 1234)  "), std::string::npos) << text;
-  EXPECT_NE(text.find("\n  exact at line 801, and was asked no more: ended in signal 11 "
+  EXPECT_NE(text.find("\n  exact failed at line 801 and was asked no more: ended in signal 11 "
                       "(Segmentation fault)\n"),
             std::string::npos)
       << text;
@@ -193,12 +195,69 @@ TEST(QueryText, OfAFamilyHasARowForEachValue) {
   edge, m  queries  contacts  exact                                                                        single
   1              1         1     ok                                                                            ok
   0.001       1234       700     ok  290 missed, 100 spurious, early 2.5e-01, late 1.0e+00, 10 errors, 34 refused
+  single at 0.001, query 41: a time of nan
+)");
+}
+
+TEST(QueryText, OfAFamilySaysWhereAndWhyADetectorFirstFailed) {
+  QueryFamily family;
+  family.id = "small-vf";
+  family.values = {1, 0.1};
+  FileScore right = score_by_hand();
+  right.detectors.resize(1);
+  FileScore failed = right;
+  failed.detectors[0].failure = "ended in signal 11";
+  failed.detectors[0].failed_at = 17;
+  const std::string text = text_of(family, {right, failed});
+  EXPECT_NE(text.find("\n  exact at 0.1, query 17: ended in signal 11\n"), std::string::npos)
+      << text;
+  EXPECT_EQ(text_of(family, {failed, failed}).find("exact at 0.1"), std::string::npos)
+      << "the first alone";
+}
+
+TEST(QueryText, NamesDetectorsOfAnotherKindAndHitsWithinTheToleranceAtTheStart) {
+  FileScore file = score_by_hand();
+  file.of_another_kind = {"edges", "more"};
+  file.detectors[1].times.near_at_start = 3;
+  const std::string text = text_of(file);
+  EXPECT_NE(text.find("not asked, since they do not answer vertex-face: edges, more\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("single: 3 contacts reported at t = 0, where"), std::string::npos) << text;
+}
+
+TEST(QueryText, SummaryHasTheFirstValueAtWhichADetectorErrs) {
+  QueryFamily family;
+  family.id = "small-vf";
+  family.parameter = "edge, m";
+  family.values = {1, 0.1, 0.001};
+  QueryFamily edges = family;
+  edges.id = "small-ee";
+  edges.values = {1};
+  FileScore right = score_by_hand();
+  right.detectors[0].times = {};
+  right.detectors[1] = right.detectors[0];
+  right.detectors[1].detector = "single";
+  FileScore wrong = right;
+  wrong.detectors[1].score.missed = 1;
+  FileScore of_edges = right;
+  of_edges.detectors.resize(1);
+  EXPECT_EQ(summary_of({family, edges}, {right, wrong, wrong, of_edges}),
+            R"(First value of each family at which a detector errs (ok: at none; near is no error)
+  family    parameter  exact  single
+  small-vf    edge, m     ok     0.1
+  small-ee    edge, m     ok       -
 )");
 }
 
 TEST(QueryJson, HasEveryFieldOfAScore) {
   const Json document = Json::parse(json_of({score_by_hand()}));
   EXPECT_EQ(document.at("schema"), "contactcheck-queries/1");
+  EXPECT_FALSE(document.at("version").get<std::string>().empty());
+  EXPECT_FALSE(document.contains("cap"));
+  const Json capped = Json::parse(json_of({}, {0.5, 0.125}));
+  EXPECT_EQ(capped.at("cap"), 0.5);
+  EXPECT_EQ(capped.at("cap_of_start"), 0.125);
   ASSERT_EQ(document.at("files").size(), 1U);
   const Json& file = document["files"][0];
   Json head = file;
@@ -217,12 +276,12 @@ TEST(QueryJson, HasEveryFieldOfAScore) {
     "detector": "exact", "precision": "double", "queries": 1234, "refused": 0,
     "score": {"truth": 700, "reported": 700, "hit": 700, "missed": 0, "spurious": 0, "near": 0,
         "undecided": 0, "near_max": 0.0},
-    "time_of_contact": {"timed": 700, "near_at_start": 4, "before": 3, "after": 2, "early_median": 1e-13,
+    "time_of_contact": {"timed": 700, "near_at_start": 0, "before": 3, "after": 2, "early_median": 1e-13,
       "early_99": 2e-13, "early_max": 4.5e-13, "late_median": 0.0, "late_99": 0.0,
       "late_max": 2e-14},
     "microseconds":
       {"median": 0.254, "mean": 1.5, "percentile_99": 9.875, "worst": 123.4, "worst_line": 801},
-    "errors": 0,
+    "errors": 0, "tolerance": {"absolute": 0.0, "of_start": 0.0},
     "decades": [
       {"decade": -2, "score": {"truth": 600, "reported": 600, "hit": 600, "missed": 0, "spurious": 0, "near": 0,
         "undecided": 0, "near_max": 0.0},
@@ -243,7 +302,8 @@ TEST(QueryJson, HasEveryFieldOfAScore) {
       "early_max": 0.0, "late_median": 0.0, "late_99": 0.0, "late_max": 0.0},
     "microseconds":
       {"median": 0.1, "mean": 0.2, "percentile_99": 0.3, "worst": 12.0, "worst_line": 17},
-    "errors": 10, "first_error": 41,
+    "errors": 10, "first_error": 41, "first_error_is": "a time of nan",
+    "tolerance": {"absolute": 0.5, "of_start": 0.25},
     "decades": [
       {"decade": null, "score": {"truth": 0, "reported": 1, "hit": 0, "missed": 0, "spurious": 1, "near": 0,
         "undecided": 0, "near_max": 0.0,

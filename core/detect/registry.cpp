@@ -21,6 +21,13 @@ std::string join(const std::vector<std::string>& words) {
   return out;
 }
 
+/// A whole number in digits, as strtol reads it: 1000000 and not 1e+06.
+std::string text_of(const OptionInfo& option, double value) {
+  if (option.integer && std::abs(value) < kLargestPlainInteger)
+    return std::to_string(static_cast<long long>(value));
+  return shortest(value + 0.0);  // -0 is 0
+}
+
 std::string checked_number(const std::string& detector, const OptionInfo& option,
                            const std::string& text) {
   double value = 0.0;
@@ -30,11 +37,9 @@ std::string checked_number(const std::string& detector, const OptionInfo& option
   if (!in_range || (option.integer && value != std::floor(value))) {
     throw InputError("detector \"" + detector + "\": option " + option.name + " is \"" + text +
                      "\"; allowed: " + (option.integer ? "a whole number" : "a number") + " from " +
-                     shortest(option.min) + " to " + shortest(option.max));
+                     text_of(option, option.min) + " to " + text_of(option, option.max));
   }
-  if (option.integer && std::abs(value) < kLargestPlainInteger)
-    return std::to_string(static_cast<long long>(value));  // 1000000 and not 1e+06, for strtol
-  return shortest(value + 0.0);                            // -0 is 0
+  return text_of(option, value);
 }
 
 std::string checked_value(const std::string& detector, const OptionInfo& option,

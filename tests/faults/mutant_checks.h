@@ -30,6 +30,8 @@ void check_ground(const MutantScene& scene, MutantFindings& out);
 void check_triangle_pairs(MutantFindings& out);
 /// Labels of triangles against rational arithmetic.
 void check_labels(MutantFindings& out);
+/// Moving elements against the oracle.
+void check_impacts(MutantFindings& out);
 /// Sets of contacts, the hash grid and what a mesh is.
 void check_small_parts(MutantFindings& out);
 

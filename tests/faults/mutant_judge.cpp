@@ -32,6 +32,7 @@ int main() {
   check_small_parts(findings);
   check_labels(findings);
   check_triangle_pairs(findings);
+  check_impacts(findings);
   findings.enter({"all", 0, "make_shape", "scenes"});
   for (const MutantScene& scene : mutant_scenes()) {
     check_mapping(scene, findings);

@@ -430,6 +430,14 @@ ImpactFamily draw_impact_family(std::mt19937_64& random) {
   return static_cast<ImpactFamily>(random() % (kImpactFamilies - 1));
 }
 
+ImpactQuery close_roots(double time, double square) {
+  const double height = square - time * time;
+  ImpactQuery query{ImpactKind::vertex_triangle, {}, {}};
+  query.start = {Vec3(0, 0.25, height), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  query.end = {Vec3(1, 0.25, 2 * time + height), Vec3(0, 0, 0), Vec3(1, 0, 1), Vec3(0, 1, 0)};
+  return query;
+}
+
 ImpactQuery reversed(const ImpactQuery& query) { return {query.kind, query.end, query.start}; }
 
 std::vector<ImpactQuery> relabelled(const ImpactQuery& query) {

@@ -113,9 +113,11 @@ TEST(DetectorCatalog, WholeNumbersHaveDigitsAlone) {
   DetectorInfo info;
   info.id = "other";
   info.options.push_back({"most", "1e6", {}, -0x1p60, 0x1p60, true, "how many"});
+  info.options.push_back({"many", "1", {}, 0.0, 1e9, true, "how many"});
   info.options.push_back({"length", "1e6", {}, 0.0, 1e300, false, "metres"});
   catalog.add(info);
-  EXPECT_EQ(catalog.parse("other").options, (Options{{"length", "1e+06"}, {"most", "1000000"}}));
+  EXPECT_EQ(catalog.parse("other").options,
+            (Options{{"length", "1e+06"}, {"many", "1"}, {"most", "1000000"}}));
   EXPECT_EQ(catalog.parse("other:most=1000000").name, "other");
   EXPECT_EQ(catalog.parse("other:most=-0").name, "other:most=0");
   EXPECT_EQ(catalog.parse("other:most=-3e9").name, "other:most=-3000000000");
@@ -123,6 +125,12 @@ TEST(DetectorCatalog, WholeNumbersHaveDigitsAlone) {
   EXPECT_EQ(catalog.parse("other:most=9007199254740992").name, "other:most=9007199254740992");
   EXPECT_EQ(catalog.parse("other:most=1e17").name, "other:most=1e+17");
   EXPECT_EQ(catalog.parse("other:length=2e6").name, "other:length=2e+06");
+  try {
+    catalog.parse("other:many=1.5");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), ::testing::HasSubstr("a whole number from 0 to 1000000000"));
+  }
 }
 
 TEST(DetectorCatalog, KnowsDetectorsOfQueriesApartFromThoseOfFrames) {

@@ -42,22 +42,23 @@ TEST_P(ElementaryImpactCases, FirstContactInBothDirectionsOfTime) {
 INSTANTIATE_TEST_SUITE_P(All, ElementaryImpactCases, ::testing::ValuesIn(impact_cases()),
                          [](const auto& each) { return each.param.name; });
 
-/// Of one family, the answers of both tests in core and the oracle's.
+/// The answers of both tests in core and the oracle's. Whether there is a contact.
+bool compare(const ImpactQuery& query) {
+  const Impact truth = elementary_impact(query);
+  const Impact found = find_impact(query), exact = find_impact_exact(query);
+  EXPECT_EQ(contradiction(found, truth), "")
+      << "find_impact: " << text(found) << "\noracle: " << text(truth) << '\n'
+      << text(query);
+  EXPECT_EQ(contradiction(exact, truth), "")
+      << "find_impact_exact: " << text(exact) << "\noracle: " << text(truth) << '\n'
+      << text(query);
+  return truth.contact;
+}
+
 void compare_family(ImpactFamily family, int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   int contacts = 0;
-  for (int i = 0; i < count; ++i) {
-    const ImpactQuery query = draw_impact_query(random, family);
-    const Impact truth = elementary_impact(query);
-    const Impact found = find_impact(query), exact = find_impact_exact(query);
-    EXPECT_EQ(contradiction(found, truth), "")
-        << "find_impact: " << text(found) << "\noracle: " << text(truth) << '\n'
-        << text(query);
-    EXPECT_EQ(contradiction(exact, truth), "")
-        << "find_impact_exact: " << text(exact) << "\noracle: " << text(truth) << '\n'
-        << text(query);
-    contacts += truth.contact;
-  }
+  for (int i = 0; i < count; ++i) contacts += compare(draw_impact_query(random, family));
   // Of all other families some queries have a contact and some have none.
   EXPECT_GT(contacts, 0);
   EXPECT_TRUE(family == ImpactFamily::kOneCrossing || contacts < count);
@@ -75,6 +76,17 @@ INSTANTIATE_TEST_SUITE_P(All, ImpactFamilies, ::testing::Range(0, kImpactFamilie
                          [](const auto& each) {
                            return name_of(static_cast<ImpactFamily>(each.param));
                          });
+
+// Where doubles guess a root wrong within 2^-41, or see none.
+TEST(ElementaryImpact, CoreAnswersAsTheOracleAtCloseRoots) {
+  int contacts = 0, queries = 0;
+  for (int bits = 10; bits < 60; ++bits)
+    for (int i = 1; i < 20; ++i, ++queries)
+      for (const double sign : {1.0, -1.0})
+        contacts += compare(close_roots(i / 29.0, sign * std::ldexp(1.0, -bits)));
+  EXPECT_GT(contacts, queries / 2);
+  EXPECT_LT(contacts, 3 * queries / 2);
+}
 
 RationalImpactQuery rational(const ImpactQuery& query) {
   RationalImpactQuery result;

@@ -50,8 +50,8 @@ ImpactQuery draw_impact_query(std::mt19937_64& random, ImpactFamily family);
 /// kWholeRange once in 2000 times, the others equally often.
 ImpactFamily draw_impact_family(std::mt19937_64& random);
 
-/// A vertex dips through a turning triangle and comes back: the determinant is z - x h of places that
-/// are linear in t, (t - time)^2 - square, with two roots the closer the smaller `square` is. From
+/// A vertex dips through a turning triangle and comes back. The determinant, z less the height of
+/// the plane at x, is (t - time)^2 - square: two roots, the closer the smaller `square` is. From
 /// 2^-24 on downwards doubles cannot tell within 2^-41 where these are.
 ImpactQuery close_roots(double time, double square);
 

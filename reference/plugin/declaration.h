@@ -1,6 +1,7 @@
 // What a plug-in declares about its detector, be it a library or a command.
 #pragma once
 
+#include <iterator>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -21,6 +22,9 @@ inline constexpr Level kHeaderLevels[] = {
     Level::kSelfBody, Level::kSelfCell,    Level::kSelfNear};
 inline constexpr Question kHeaderQuestions[] = {
     Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts, Question::kSelf};
+// One that is left out would be asked for as the first one.
+static_assert(std::size(kHeaderLevels) == std::size(kLevels));
+static_assert(std::size(kHeaderQuestions) == std::size(kQuestions));
 inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision::kSingle};
 inline constexpr DepthKind kHeaderDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
                                                   DepthKind::kConvexPair};

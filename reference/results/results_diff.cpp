@@ -124,7 +124,7 @@ ResultsDiff diff_results(const results::Results& before, const results::Results&
 }
 
 std::string change_line(const RowChange& change) {
-  // A row may differ at seven levels and in eleven errors.
+  // A row may differ at every level and in every error.
   constexpr std::size_t kDifferencesPerLine = 3;
   std::string what = text::first_joined(change.what, kDifferencesPerLine);
   if (change.what.size() > kDifferencesPerLine)

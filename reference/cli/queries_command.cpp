@@ -22,13 +22,19 @@ namespace {
 
 queries::QueryDetector detector_of(const std::string& name, const OwnDetectors& own,
                                    const QueriesArguments& arguments) {
+  const auto has_this_id = [&](const plugin::Plugin& plugin) {
+    return plugin.declaration.id == name.substr(0, name.find(':'));
+  };
+  const auto plugin = std::ranges::find_if(own.plugins, has_this_id);
+  // One of frames may be called as a detector of queries is: that one is not meant.
+  if (plugin != own.plugins.end() && !plugin->declaration.impacts)
+    throw InputError(plugin::described(plugin->source) + " answers no queries of moving elements");
   const DetectorSpec spec = own.catalog.parse_impact(name);
   const ImpactDetectorInfo& info = *own.catalog.find_impact(spec.id);
-  for (const plugin::Plugin& plugin : own.plugins)
-    if (plugin.declaration.id == spec.id)
-      return queries::worker_detector(info, spec, plugin::to_json(plugin).dump(),
-                                      std::filesystem::read_symlink("/proc/self/exe"),
-                                      {arguments.call_limit, arguments.memory_limit_mib << 20});
+  if (plugin != own.plugins.end())
+    return queries::worker_detector(info, spec, plugin::to_json(*plugin).dump(),
+                                    std::filesystem::read_symlink("/proc/self/exe"),
+                                    {arguments.call_limit, arguments.memory_limit_mib << 20});
   return queries::local_detector(info, spec);
 }
 

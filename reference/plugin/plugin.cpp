@@ -107,7 +107,9 @@ void add_plugin(const Plugin& plugin, DetectorCatalog& catalog) {
   const Declaration& declaration = plugin.declaration;
   const std::string& id = declaration.id;
   const std::string claim = described(plugin.source) + " calls itself \"" + id + "\", ";
-  if (catalog.find(id) != nullptr || catalog.find_impact(id) != nullptr)
+  // Detectors of frames and of queries are asked for apart, so one of each may have a name.
+  if ((declaration.answers_frames() && catalog.find(id) != nullptr) ||
+      (declaration.impacts && catalog.find_impact(id) != nullptr))
     throw InputError(claim + "which is another detector's name; change the id that it declares");
   if (id == kOracle || adapters::library_of(id) != "contactcheck")
     throw InputError(claim + "a name that is kept for " +

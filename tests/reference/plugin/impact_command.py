@@ -44,7 +44,13 @@ for text in iter(sys.stdin.buffer.readline, b""):
     line = json.loads(text)
     sys.stdin.buffer.read(line.get("bytes", 0))
     if line["message"] == "hello":
-        write({"message": "hello", "protocol": "contactcheck-pipe/1", "id": "impacts", "impacts": CLAIMS})
+        hello = {"message": "hello", "protocol": "contactcheck-pipe/1", "id": "impacts"}
+        if FAULT.endswith("named-exact"):
+            hello["id"] = "exact"
+        if FAULT == "frames-named-exact":
+            write({**hello, "semantics": {"levels": ["body"], "questions": ["body"]}})
+        else:
+            write({**hello, "impacts": CLAIMS})
     elif line["message"] == "prepare":
         assert line["bodies"] == []
         ready = {"message": "ready"}

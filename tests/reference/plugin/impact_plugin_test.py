@@ -208,6 +208,16 @@ def test_detector_of_frames_answers_no_queries(tmp_path):
             named=["no detector of queries is named \"fcl-aabb\"; there are exact, root-finder"])
 
 
+def test_detector_of_frames_may_be_called_as_one_of_queries_is(tmp_path):
+    command_of_frames = shlex.join([sys.executable, "-B", str(COMMAND_FILE), "frames-named-exact"])
+    assert "\nexact\n" in successful("list", "--detector-cmd", command_of_frames).out
+    refused("queries", queries_file(tmp_path), "--detector-cmd", command_of_frames, folder=tmp_path,
+            named=["answers no queries of moving elements"])
+    taken = shlex.join([sys.executable, "-B", str(COMMAND_FILE), "named-exact"])
+    refused("queries", queries_file(tmp_path), "--detector-cmd", taken, folder=tmp_path,
+            named=["calls itself \"exact\", which is another detector's name"])
+
+
 def test_list_shows_what_it_declares():
     out = successful("list", "--detector", LIBRARY, "--detector", "bullet-bernstein").out
     assert "  queries     vertex-face, in double precision\n  tolerance   0.25 m\n" in out

@@ -28,7 +28,6 @@ using Json = nlohmann::ordered_json;
 constexpr auto kPollInterval = std::chrono::milliseconds(5);
 constexpr double kMostSeconds = 30.0;
 constexpr std::size_t kLongestAnswer = std::size_t{1} << 20;
-constexpr std::uint64_t kOutputLimit = std::uint64_t{64} << 20;  // as for workers
 
 /// What a child of this program, which examines the source, has written within its limits.
 std::string answer_of_child(const PluginSource& source, const std::filesystem::path& executable,
@@ -57,7 +56,7 @@ std::string answer_of_child(const PluginSource& source, const std::filesystem::p
       else if (process.resident_bytes() > settings.memory_limit)
         fault =
             "took more than " + std::to_string(settings.memory_limit >> 20) + " MiB (memory limit)";
-      else if (process.output_bytes() > kOutputLimit)
+      else if (process.output_bytes() > process::kWorkerOutputLimit)
         fault = "wrote without end (output limit)";
     }
     if (!fault.empty()) process.kill();
@@ -66,9 +65,7 @@ std::string answer_of_child(const PluginSource& source, const std::filesystem::p
   std::string text = answer.text(kLongestAnswer);
   // The exit code says nothing: a library may end the process by itself afterwards.
   if (fault.empty() && text.empty()) {
-    const std::string last_words = text::printable_line(process.error_text());
-    fault = "ended in " + process::describe_status(status) +
-            (last_words.empty() ? "" : ": " + last_words);
+    fault = process::ended_text(status, process.error_text());
   }
   if (!fault.empty())
     throw InputError(described(source) + " " + fault + " when it was asked what it is");

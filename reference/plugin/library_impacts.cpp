@@ -1,9 +1,9 @@
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
+#include <optional>
 #include <string>
-#include <type_traits>
 
 #include "core/types/check.h"
 #include "reference/plugin/library_object.h"

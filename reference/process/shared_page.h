@@ -21,8 +21,8 @@ T* map_page(int fd) {
   return page == MAP_FAILED ? nullptr : static_cast<T*>(page);
 }
 
-/// The parent's side: makes the T. What the child changes beside lock-free atomics is seen after
-/// those.
+/// The parent's side: makes the T, whose atomic `supervisor` is this process's id. What the child
+/// changes beside lock-free atomics is seen after those.
 template <typename T>
 class SharedPage {
  public:
@@ -32,6 +32,7 @@ class SharedPage {
     if (page == nullptr)
       throw InputError(std::string("cannot make shared memory: ") + std::strerror(errno));
     value_ = new (page) T;
+    value_->supervisor = getpid();
   }
   ~SharedPage() { munmap(value_, sizeof(T)); }
   SharedPage(const SharedPage&) = delete;
@@ -45,14 +46,16 @@ class SharedPage {
   T* value_;
 };
 
-/// The child's side: gives the descriptor back. A copy of this process that a library lets run on
-/// does not have it.
+/// The child's side: gives the descriptor back; null when it is none of a page. Ends this process
+/// if its supervisor has died before it could be told. A copy of this process that a library lets
+/// run on does not have the page.
 template <typename T>
 T* join_page(int fd) {
   T* const page = map_page<T>(fd);
   if (page == nullptr) return nullptr;
   close(fd);
   madvise(page, sizeof(T), MADV_DONTFORK);
+  if (getppid() != page->supervisor) _exit(1);
   return page;
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/types/check.h"
+#include "reference/text/printable.h"
 
 namespace contactcheck::process {
 namespace {
@@ -149,6 +150,11 @@ std::string describe_status(int status) {
     return "signal " + std::to_string(number) + " (" + strsignal(number) + ")";
   }
   return "exit code " + std::to_string(WEXITSTATUS(status));
+}
+
+std::string ended_text(int status, const std::string& error_text) {
+  const std::string last_words = text::printable_line(error_text);
+  return "ended in " + describe_status(status) + (last_words.empty() ? "" : ": " + last_words);
 }
 
 std::string WorkerProcess::error_text() const { return errors_.text(kLongestErrorText); }

@@ -35,6 +35,9 @@ class MemoryFile {
   int fd_;
 };
 
+/// Bytes that a worker may write on both streams before its supervisor ends it.
+inline constexpr std::uint64_t kWorkerOutputLimit = std::uint64_t{64} << 20;
+
 /// A running worker. Its standard input is empty; its standard output and error are private files,
 /// opened for appending. It leads a process group, so that children of a library end with it.
 class WorkerProcess {
@@ -76,5 +79,9 @@ class WorkerProcess {
 
 /// What waitpid's status says: "signal 11 (Segmentation fault)", "exit code 3".
 std::string describe_status(int status);
+
+/// "ended in signal 6 (Aborted): Assertion failed ...", with one line of what it wrote on its
+/// standard error, if it did.
+std::string ended_text(int status, const std::string& error_text);
 
 }  // namespace contactcheck::process

@@ -31,7 +31,6 @@ using Clock = std::chrono::steady_clock;
 /// Queries that the page holds at once.
 constexpr std::size_t kMostAsked = 1024;
 constexpr std::size_t kLongestFault = 1024;  // bytes
-constexpr std::uint64_t kOutputLimit = std::uint64_t{64} << 20;
 constexpr auto kShortestWait = std::chrono::microseconds(20);
 constexpr auto kLongestWait = std::chrono::microseconds(1000);
 constexpr auto kBetweenLimits = std::chrono::milliseconds(20);
@@ -97,7 +96,6 @@ class WorkerSession final : public QuerySession {
   WorkerSession(const std::string& detector, const std::string& record,
                 const std::filesystem::path& executable, const WorkerLimits& limits)
       : limits_(limits), page_("contactcheck-queries") {
-    page().supervisor = getpid();
     process_.emplace(
         executable,
         std::vector<std::string>{"query-worker", detector, "--plugin=" + record, "--page-fd",
@@ -182,7 +180,7 @@ class WorkerSession final : public QuerySession {
     else if (process_->resident_bytes() > limits_.memory_bytes)
       fault_ = "more than " + std::to_string(limits_.memory_bytes >> 20) +
                " MiB resident (memory limit)";
-    else if (process_->output_bytes() > kOutputLimit)
+    else if (process_->output_bytes() > process::kWorkerOutputLimit)
       fault_ = "wrote without end (output limit)";
     if (!fault_.empty()) end_process();
   }
@@ -200,10 +198,10 @@ class WorkerSession final : public QuerySession {
   }
 
   std::string how_it_ended() {
-    const std::string how = process::describe_status(process_->reap());
-    const std::string last_words = text::printable_line(process_->error_text());
+    const int status = process_->reap();
+    const std::string how = process::ended_text(status, process_->error_text());
     process_.reset();
-    return "ended in " + how + (last_words.empty() ? "" : ": " + last_words);
+    return how;
   }
 
   WorkerLimits limits_;
@@ -254,7 +252,6 @@ int run_query_worker(const std::string& detector, const DetectorCatalog& catalog
   process::end_with_supervisor();
   Page* const page = process::join_page<Page>(page_fd);
   if (page == nullptr) return process::kExitInternal;
-  if (getppid() != page->supervisor) return process::kExitInternal;  // it is dead already
   try {
     const DetectorSpec spec = catalog.parse_impact(detector);
     auto made = catalog.find_impact(spec.id)->make(spec.options);

@@ -21,7 +21,6 @@ constexpr auto kPollInterval = std::chrono::milliseconds(20);
 constexpr double kSecondsOfOwnCode = 600.0;
 constexpr double kSecondsToLeave = 5.0;
 // As for the workers of a run (supervisor.cpp).
-constexpr std::uint64_t kOutputLimit = std::uint64_t{64} << 20;
 
 std::vector<std::string> words_of(const ProbeSettings& settings) {
   std::vector<std::string> words = {"probe", settings.detector, "--channel-fd",
@@ -79,7 +78,7 @@ std::string Probe::limit_passed_before_message(double seconds) {
     pass_on_interrupt();
     if (std::chrono::duration<double>(Clock::now() - start).count() > seconds) return "time limit";
     if (connection_->process.resident_bytes() > settings_.memory_limit) return "memory limit";
-    if (connection_->process.output_bytes() > kOutputLimit) return "output limit";
+    if (connection_->process.output_bytes() > process::kWorkerOutputLimit) return "output limit";
     // A child of the library may hold the channel open.
     if (connection_->process.has_ended()) break;
   }

@@ -22,7 +22,6 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
 // Of a worker's two streams together: they are files in memory, which no other limit counts. A
 // library that prints a line for every contact stays far below.
-constexpr std::uint64_t kOutputLimit = std::uint64_t{64} << 20;
 // For a worker whose answer is complete: destructors and exit handlers of libraries may hang.
 constexpr double kSecondsToLeave = 5.0;
 // Without a step of the suite's own code, however short the limit of one call: an exact judgement
@@ -63,8 +62,8 @@ class Watch {
     if (worker.resident_bytes() > settings_.memory_limit)
       return "more than " + std::to_string(settings_.memory_limit >> 20) +
              " MiB resident (memory limit)";
-    if (worker.output_bytes() > kOutputLimit)
-      return "more than " + std::to_string(kOutputLimit >> 20) +
+    if (worker.output_bytes() > process::kWorkerOutputLimit)
+      return "more than " + std::to_string(process::kWorkerOutputLimit >> 20) +
              " MiB written to standard output and error (output limit)";
     return "";
   }
@@ -141,7 +140,6 @@ WorkerOutcome run_supervised(const std::filesystem::path& executable,
                              const std::filesystem::path& job_file, const RunSettings& settings,
                              const ProgressCallback& on_progress) {
   const process::SharedPage<process::SharedProgress> page("contactcheck-progress");
-  page.value().supervisor = getpid();
   process::WorkerProcess worker(executable,
                                 {"worker", job_file.string(), "--progress-fd",
                                  std::to_string(process::WorkerProcess::kInheritedFd)},

@@ -17,6 +17,22 @@ void AabbTreeOf<T>::refit(std::span<const Vec3Of<T>> vertices) {
     const Vec3Of<T>& r = vertices[c];
     triangles_[slot] = {p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)};
   }
+  refit_nodes();
+}
+
+template <typename T>
+void AabbTreeOf<T>::refit(std::span<const Vec3Of<T>> start, std::span<const Vec3Of<T>> end) {
+  for (std::size_t slot = 0; slot < triangles_.size(); ++slot) {
+    const auto& [a, b, c] = tree_->corners[slot];
+    const auto low = [&](const auto& v) { return v[a].cwiseMin(v[b]).cwiseMin(v[c]).eval(); };
+    const auto high = [&](const auto& v) { return v[a].cwiseMax(v[b]).cwiseMax(v[c]).eval(); };
+    triangles_[slot] = {low(start).cwiseMin(low(end)), high(start).cwiseMax(high(end))};
+  }
+  refit_nodes();
+}
+
+template <typename T>
+void AabbTreeOf<T>::refit_nodes() {
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     const TriangleTree::Node node = tree_->nodes[n];
     const std::vector<AabbOf<T>>& parts = node.leaf() ? triangles_ : nodes_;
@@ -53,6 +69,15 @@ template <typename T>
 void AabbTreesOf<T>::update(const std::vector<std::span<const Vec3Of<T>>>& vertices) {
   CONTACTCHECK_INVARIANT(vertices.size() == trees_.size(), "one state per prepared body");
   for (std::size_t body = 0; body < trees_.size(); ++body) trees_[body].refit(vertices[body]);
+}
+
+template <typename T>
+void AabbTreesOf<T>::update(const std::vector<std::span<const Vec3Of<T>>>& start,
+                            const std::vector<std::span<const Vec3Of<T>>>& end) {
+  CONTACTCHECK_INVARIANT(start.size() == trees_.size() && end.size() == trees_.size(),
+                         "one state per prepared body at both ends");
+  for (std::size_t body = 0; body < trees_.size(); ++body)
+    trees_[body].refit(start[body], end[body]);
 }
 
 template class AabbTreeOf<double>;

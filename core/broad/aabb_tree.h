@@ -27,6 +27,8 @@ class AabbTreeOf {
   /// Fits all boxes to the positions. Reads nothing of an earlier call.
   /// @pre one finite position per vertex of the mesh
   void refit(std::span<const Vec3Of<T>> vertices);
+  /// The same to the positions at both ends of a step.
+  void refit(std::span<const Vec3Of<T>> start, std::span<const Vec3Of<T>> end);
 
   const TriangleTree& tree() const { return *tree_; }
   const AabbOf<T>& box(std::uint32_t node) const { return nodes_[node]; }
@@ -46,6 +48,8 @@ class AabbTreeOf {
   std::string validate(std::span<const Vec3Of<T>> vertices) const;
 
  private:
+  void refit_nodes();
+
   std::shared_ptr<const TriangleTree> tree_;
   std::vector<AabbOf<T>> nodes_;      // parallel to tree_->nodes
   std::vector<AabbOf<T>> triangles_;  // per slot, so those of a leaf are read in one go
@@ -67,6 +71,9 @@ class AabbTreesOf {
   void prepare(const std::vector<Body>& bodies);
   /// @pre `vertices`: per prepared body, one finite position per vertex
   void update(const std::vector<std::span<const Vec3Of<T>>>& vertices);
+  /// The same of both ends of a step.
+  void update(const std::vector<std::span<const Vec3Of<T>>>& start,
+              const std::vector<std::span<const Vec3Of<T>>>& end);
   /// Calls `visit(ElementPair)`; true: the rest of these two bodies is skipped.
   template <typename Visit>
   void visit_candidates(Visit&& visit);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,9 +54,10 @@ struct StageTrace {
   std::vector<std::vector<std::uint32_t>> owner;
 };
 
-/// One detector on one scene. Calls come in the order prepare, then (update, query...) per frame;
-/// frames may come in any order and repeat. A detector has no state that changes the answer to a
-/// later frame. Two detectors (also of one kind) may be used by two threads at once. An exception
+/// One detector on one scene. Calls come in the order prepare, then (update, query...) per frame,
+/// and (update_step, query...) per step where it answers questions of steps; frames and steps may
+/// come in any order and repeat. A detector has no state that changes the answer to a later frame
+/// or step. Two detectors (also of one kind) may be used by two threads at once. An exception
 /// is recorded as status `error` (RefusedInput: `refused`); after it the detector is only
 /// destroyed.
 class Detector {
@@ -67,7 +69,8 @@ class Detector {
 
   /// Constant after prepare(), which may take a scale from the bodies.
   virtual const Semantics& semantics() const = 0;
-  /// True when update() reads BodyState::vertices; the mapping is then timed as phase `map`.
+  /// True when update() or update_step() reads BodyState::vertices; the mapping is then timed as
+  /// phase `map`.
   virtual bool needs_vertices() const = 0;
   /// Optional, before prepare(): the questions that will be asked. The detector may skip work that
   /// only other questions need, and do work for these in advance.
@@ -75,13 +78,17 @@ class Detector {
   /// Called once per scene. The caller keeps `bodies` alive longer than the detector.
   virtual void prepare(const std::vector<Body>& bodies) = 0;
   virtual void update(const Frame& frame) = 0;
+  /// In place of update(), before questions of steps. The nodes and vertices that the step
+  /// refers to outlive these, the step itself may not.
+  /// @pre semantics() answers one (is_of_steps)
+  virtual void update_step(const Step& step);
   /// Appends to `out`. The caller clears it before and canonicalizes it afterwards, untimed.
   /// @pre semantics().answers(question)
   virtual void query(Question question, ContactSet& out) = 0;
   /// The stages of the last updated frame; empty for detectors without stages. Untimed.
   virtual StageTrace trace() { return {}; }
-  /// Work of the last update() and of all queries since, in the detector's own units: always the
-  /// same names in the same order. Untimed.
+  /// Work of the last update() or update_step() and of all queries since, in the detector's own
+  /// units: always the same names in the same order. Untimed.
   virtual std::vector<Count> counts() { return {}; }
   /// Nanoseconds of the last update() or query() as measured by the detector itself; none if it
   /// measures none. For a detector behind a pipe this excludes the time of the pipe. Untimed.
@@ -91,5 +98,9 @@ class Detector {
   /// every frame, without numbers that change from frame to frame. Untimed.
   virtual std::vector<std::string> notes() { return {}; }
 };
+
+inline void Detector::update_step(const Step&) {
+  throw std::logic_error("a detector without an answer to `impacts` was given a step");
+}
 
 }  // namespace contactcheck

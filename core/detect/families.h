@@ -18,6 +18,9 @@ void register_bd_tree(DetectorCatalog& catalog);
 /// Adds ffd-lazy and full-refit.
 void register_lazy_detectors(DetectorCatalog& catalog);
 
+/// Adds swept-aabb, which finds contact within steps.
+void register_step_detectors(DetectorCatalog& catalog);
+
 /// Adds the detectors of elementary impacts, exact and root-finder.
 void register_impact_detectors(DetectorCatalog& catalog);
 

@@ -6,6 +6,7 @@
 
 #include "core/broad/body_pairs.h"
 #include "core/deform/mapping.h"
+#include "core/detect/swept_detector.h"
 #include "core/detect/triangle_pair_detector.h"
 #include "core/detect/triangle_record.h"
 #include "core/types/check.h"
@@ -35,17 +36,27 @@ std::string broken_promise(const LazyState& state, const std::vector<Vec3Of<Real
   return "";
 }
 
+Semantics semantics_in(Precision precision) {
+  Semantics s = exact_triangle_semantics(precision, true);
+  if (precision == Precision::kSingle) return s;
+  const Semantics steps = exact_step_semantics(true);
+  s.levels.insert(s.levels.end(), steps.levels.begin(), steps.levels.end());
+  s.questions.insert(s.questions.end(), steps.questions.begin(), steps.questions.end());
+  return s;
+}
+
 }  // namespace
 
 LazyDetector::LazyDetector(const LazyConfig& config)
     : config_(config),
       kernels_(lazy_kernels(config.isa)),
-      semantics_(exact_triangle_semantics(config.precision, true)),
+      semantics_(semantics_in(config.precision)),
       team_(config.threads),
       tasks_(kernels_, team_) {}
 
 void LazyDetector::expect(const std::vector<Question>& questions) {
   expects_self_ = std::find(questions.begin(), questions.end(), Question::kSelf) != questions.end();
+  expects_steps_ = std::any_of(questions.begin(), questions.end(), is_of_steps);
 }
 
 void LazyDetector::prepare(const std::vector<Body>& bodies) {
@@ -72,6 +83,24 @@ void LazyDetector::prepare(const std::vector<Body>& bodies) {
   }
   mapped_.assign(bodies.size(), {});
   single_mapped_.assign(bodies.size(), {});
+  bodies_ = bodies;
+  steps_.reset();
+  if (expects_steps_) know_steps();
+}
+
+void LazyDetector::know_steps() {
+  if (steps_ != nullptr) return;
+  std::vector<bool> refitted;
+  for (const LazyState& state : states_) refitted.push_back(state.from_vertices);
+  steps_ = std::make_unique<LazySteps>(bodies_, trees_, refitted, kernels_, team_);
+}
+
+void LazyDetector::update_step(const Step& step) {
+  CONTACTCHECK_INVARIANT(!single(), "steps are answered in doubles alone");
+  candidates_.clear();  // the arena of the last frame is used again
+  know_steps();
+  steps_->update(step);
+  in_step_ = true;
 }
 
 // Prepares a body for pair tests: computes all its bounds if it is refitted, else its cells (bounds
@@ -103,6 +132,7 @@ void LazyDetector::update(const Frame& frame) {
     scratch.counters = {};
   }
   candidates_.clear();  // a frame that is refused leaves no pair whose bounds are gone
+  in_step_ = false;
   const Vec3 origin = single() ? local_origin(frame) : Vec3(Vec3::Zero());
   for (std::size_t b = 0; b < states_.size(); ++b) {
     const BodyState& body = frame.bodies[b];
@@ -142,6 +172,9 @@ void LazyDetector::update(const Frame& frame) {
 
 void LazyDetector::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+  CONTACTCHECK_INVARIANT(is_of_steps(question) == in_step_,
+                         "the question is about the last update");
+  if (in_step_) return steps_->query(question, out);
   if (question == Question::kSelf) return find_self(out.self);
   if (question == Question::kTriangles)
     return tasks_.run(states_, candidates_, false, out.triangles);
@@ -194,7 +227,9 @@ StageTrace LazyDetector::trace() {
 
 LazyCounters LazyDetector::counters() const {
   LazyCounters sum;
-  for (const LazyState& state : states_) count_made(state, sum);
+  if (in_step_) sum = steps_->counters();
+  for (const LazyState& state : states_)
+    if (!in_step_) count_made(state, sum);
   for (const LazyScratch& scratch : team_.scratch()) {
     sum.block_pairs += scratch.counters.block_pairs;
     sum.leaf_pairs += scratch.counters.leaf_pairs;
@@ -241,6 +276,7 @@ std::size_t LazyDetector::instance_bytes() const {
              s.single.leaves.bytes() + s.embedded_ones.size() + s.embedded_eights.size() +
              s.embedded_children.size();
   for (const LazyScratch& scratch : team_.scratch()) bytes += scratch.arena.bytes();
+  if (steps_ != nullptr) bytes += steps_->bytes();
   for (const std::vector<Vec3>& m : mapped_) bytes += m.size() * sizeof(Vec3);
   for (const std::vector<Vec3f>& m : single_mapped_) bytes += m.size() * sizeof(Vec3f);
   return bytes;

@@ -1,5 +1,5 @@
-// ffd-lazy and full-refit: all intersecting pairs of triangles over one tree per shape; in doubles
-// exactly.
+// ffd-lazy and full-refit: all intersecting pairs of triangles over one tree per shape, and in
+// doubles all contact within steps; in doubles exactly.
 #pragma once
 
 #include <map>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/detect/detector.h"
+#include "core/detect/lazy_steps.h"
 #include "core/lazy/embedded_patch.h"
 #include "core/lazy/pair_tasks.h"
 
@@ -43,6 +44,8 @@ class LazyDetector : public Detector {
   /// elsewhere query() does
   void prepare(const std::vector<Body>& bodies) override;
   void update(const Frame& frame) override;
+  /// In doubles.
+  void update_step(const Step& step) override;
   void query(Question question, ContactSet& out) override;
   StageTrace trace() override;
   std::vector<Count> counts() override;
@@ -63,6 +66,7 @@ class LazyDetector : public Detector {
   void find_self(std::vector<SelfPair>& out);
   void know_patches(std::size_t index);
   void bound(std::size_t index, LazyScratch& scratch);
+  void know_steps();
 
   LazyConfig config_;
   const LazyKernels& kernels_;
@@ -79,6 +83,11 @@ class LazyDetector : public Detector {
   std::vector<ElementPair> found_;
   ThreadTeam team_;
   PairTasks tasks_;
+  std::vector<Body> bodies_;
+  std::unique_ptr<LazySteps>
+      steps_;  // if questions of steps are expected, or from the first one on
+  bool expects_steps_ = false;
+  bool in_step_ = false;  // the last update was of a step
 };
 
 }  // namespace contactcheck

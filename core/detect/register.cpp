@@ -8,6 +8,7 @@ void register_core_detectors(DetectorCatalog& catalog) {
   register_triangle_detectors(catalog);
   register_bd_tree(catalog);
   register_lazy_detectors(catalog);
+  register_step_detectors(catalog);
   register_impact_detectors(catalog);
 }
 

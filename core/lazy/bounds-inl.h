@@ -1,4 +1,5 @@
-// Bounds of the eight children of a block, from deformed lattice nodes. Compiled once per
+// Bounds of the eight children of a block, from deformed lattice nodes, in a frame or over a step.
+// Compiled once per
 // instruction set (kernels.cpp).
 //
 // Why the slacks suffice. Exact bounds contain the exact images of the vertices (lattice_tree.h).
@@ -83,6 +84,16 @@
 //   * The comparison rounds W and |theirs| + their_half, at most 15.3 cos + 4.9 sin and so 16.1 M:
 //     32 u M.
 //   * In all 100.5 u M; with the slab's own 174.5 u M below 384 u M.
+//
+// Over a step (lazy_state.h): the box and slab of both ends are joined.
+//   * Both ends are in frames of one reach, with one slack, so each end's box and slab hold by the
+//     above. A box is a least and a largest of floats, and rounds nothing more.
+//   * Along one n the ranges of both ends are joined. That of the start is middle -+ half: their
+//     difference and sum, and the middle and half-width of the joined range, round by at most
+//     3 * 15.3 u M = 46 u M. With 174.5 and 100.5 u M that makes 321 u M, below 384 u M.
+//   * n is the start's. Bounds are right for every n.
+//   * Vertices are the doubles at both ends and not images of nodes in between: a vertex moves on
+//     the straight line between its rounded ends, which convex bounds of both ends hold.
 //
 // Added to both slacks, in units of the world times the scale (place_one() in lazy_state.cpp):
 //   * the error of the canonical mapping (mapping.h);
@@ -256,6 +267,44 @@ HWY_INLINE void finish_block(const LazyState& state, const RunningBounds& from,
   }
 }
 
+// Joins the bounds of a block's children at the end of a step to those at its start.
+HWY_NOINLINE inline void join_end(const LazyState& end, std::uint32_t index, BlockBounds& out) {
+  const TreeBlock& block = end.tree->blocks[index];
+  const BlockSlabs& slabs = end.tree->slabs[index];
+  RunningBounds running;
+  for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
+    float square = 0.0f;
+    for (int k = 0; k < 3; ++k) {
+      const auto m = static_cast<float>(slabs.normal[k][lane]);
+      running.world[lane][k] = out.slab.normal[k][lane];
+      running.local[lane][k] = m;
+      square += m * m;
+    }
+    running.world[lane][3] = 0.0f;
+    running.local[lane][3] = 1.0f / square;
+    for (int k = 0; k < 4; ++k) {
+      running.lo[lane][k] = kInfinity;
+      running.hi[lane][k] = -kInfinity;
+    }
+  }
+  for (std::uint32_t p = block.begin; p < block.end; ++p)
+    join_pieces(end, end.tree->pieces[p], running);
+  for (std::uint32_t lane = 0; lane < block.children; ++lane) {
+    for (int k = 0; k < 3; ++k) {
+      out.box.lo[k][lane] = std::min(out.box.lo[k][lane], running.lo[lane][k] - end.slack);
+      out.box.hi[k][lane] = std::max(out.box.hi[k][lane], running.hi[lane][k] + end.slack);
+    }
+    float &middle = out.slab.middle[lane], &half = out.slab.half[lane];
+    const float lo = std::min(middle - half, running.lo[lane][3] - end.slab_slack);
+    const float hi = std::max(middle + half, running.hi[lane][3] + end.slab_slack);
+    // False for bounds that overflowed, too.
+    const bool sound = half < kNoSlab && hi - lo < kNoSlab;
+    for (int k = 0; k < 3 && !sound; ++k) out.slab.normal[k][lane] = 0.0f;
+    middle = sound ? 0.5f * (lo + hi) : 0.0f;
+    half = sound ? 0.5f * (hi - lo) : kNoSlab;
+  }
+}
+
 HWY_NOINLINE inline void bound_block(const LazyState& state, std::uint32_t index,
                                      BlockBounds& out) {
   const TreeBlock& block = state.tree->blocks[index];
@@ -283,6 +332,7 @@ HWY_INLINE const BlockBounds& bounds(LazyState& state, std::uint32_t index, Fram
   if (const BlockBounds* known = state.blocks.find(index)) return *known;
   auto& out = *static_cast<BlockBounds*>(arena.take(sizeof(BlockBounds)));
   bound_block(state, index, out);
+  if (state.end != nullptr) join_end(*state.end, index, out);
   state.blocks.put(index, &out);
   return out;
 }

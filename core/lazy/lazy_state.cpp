@@ -55,8 +55,10 @@ void place_one(const Aabb& frame, double scale, LazyState& state) {
   state.origin = frame.center();
   state.reach = half_width(frame) * scale;
   // Products first: the sum of two coordinates may overflow, and nothing would be excluded.
+  const double farthest = std::max(state.origin.cwiseAbs().maxCoeff(),
+                                   (state.origin + state.velocity).cwiseAbs().maxCoeff());
   const double world = mapping_error_bound(state.largest) + 4.0 * kDoubleUnit * state.largest +
-                       4.0 * kDoubleUnit * state.origin.cwiseAbs().maxCoeff();
+                       4.0 * kDoubleUnit * farthest;
   const double common = world * scale * 1.01 + 1e-37;
   state.slack = round_up(64.0 * kFloatUnit * state.reach + common);
   state.slab_slack = round_up(384.0 * kFloatUnit * state.reach + 2.0 * common);
@@ -198,6 +200,42 @@ void place(std::span<LazyState> states) {
   const bool common = half_width(scene) <= kLargestShare * smallest;
   const double scale = scale_to_one(common ? half_width(scene) : largest);
   for (LazyState& state : states) place_one(common ? scene : state.box, scale, state);
+}
+
+void place_step(std::span<LazyState> states, std::span<LazyState> ends) {
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    LazyState &start = states[b], &end = ends[b];
+    const Vec3 velocity = end.box.center() - start.box.center();
+    const Aabb moved = {end.box.lo - velocity, end.box.hi - velocity};
+    const bool sound = moved.lo.allFinite() && moved.hi.allFinite();
+    start.velocity = sound ? velocity : Vec3(Vec3::Zero());
+    start.box.extend(sound ? moved : end.box);
+    start.largest = std::max(start.largest, end.largest);
+  }
+  place(states);
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    const LazyState& start = states[b];
+    LazyState& end = ends[b];
+    end.origin = start.origin + start.velocity;
+    end.scale = start.scale;
+    end.reach = start.reach;
+    end.slack = start.slack;
+    end.slab_slack = start.slab_slack;
+  }
+}
+
+bool may_meet(const LazyState& a, const LazyState& b) {
+  // Each sum below rounds by at most 2^-53 of the sum of its parts; eight times that is allowed.
+  constexpr double kUnit = 8.0 * 0x1p-53;
+  for (int k = 0; k < 3; ++k) {
+    const double v = b.velocity[k] - a.velocity[k];
+    const double size = std::abs(a.velocity[k]) + std::abs(b.velocity[k]) + a.largest + b.largest;
+    const double rounding = kUnit * size;
+    const double low = b.box.lo[k] + std::min(v, 0.0) - rounding;
+    const double high = b.box.hi[k] + std::max(v, 0.0) + rounding;
+    if (low > a.box.hi[k] || high < a.box.lo[k]) return false;
+  }
+  return true;
 }
 
 void begin_frame_in_single(LazyState& state, std::span<const Vec3> nodes, const Vec3& origin) {

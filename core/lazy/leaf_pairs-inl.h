@@ -1,4 +1,5 @@
-// Triangles of two leaves against each other: boxes, then the test of triangles in batches.
+// Triangles of two leaves against each other: boxes, then the test of triangles in batches. Over a
+// step the pairs whose boxes overlap are candidates, which others test.
 // Compiled once per instruction set (kernels.cpp).
 
 #if defined(CONTACTCHECK_LAZY_LEAF_PAIRS_INL) == defined(HWY_TARGET_TOGGLE)
@@ -53,6 +54,7 @@ class LeafPairTests {
         scratch_(scratch),
         batches_(batches_in(Real(), scratch)),
         own_(&bodies.a == &bodies.b),
+        collects_(bodies.a.end != nullptr),
         out_(out) {
     for (TriangleBatchOf<Real>& batch : batches_.of) batch.count = 0;
   }
@@ -118,6 +120,10 @@ class LeafPairTests {
   HWY_INLINE void add_pair(const LeafPair& leaves, const Leaf& a, std::uint32_t i, const Leaf& b,
                            std::uint32_t j) {
     const std::uint32_t s = name(bodies_.a, leaves.a, i), t = name(bodies_.b, leaves.b, j);
+    if (collects_) {
+      out_.push_back({bodies_.names.a, bodies_.names.b, s, t});
+      return;
+    }
     SharedCorners shared;
     if (own_) {
       const std::vector<Triangle>& linked = bodies_.a.shape->linked();
@@ -154,7 +160,8 @@ class LeafPairTests {
   const Translation& to_b_;
   LazyScratch& scratch_;
   TriangleBatchSet<Real>& batches_;
-  bool own_;  ///< both leaves are of one body
+  bool own_;       ///< both leaves are of one body
+  bool collects_;  ///< pairs are candidates over a step
   std::vector<ElementPair>& out_;
 };
 

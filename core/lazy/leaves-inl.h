@@ -132,6 +132,32 @@ HWY_INLINE void bound_axis(const LazyState& state, std::uint32_t index, const do
 }
 
 template <class Real>
+HWY_INLINE void fill_vertices(const LazyState& state, const TreeLeaf& leaf, Real* (&out)[3]) {
+  if (state.from_vertices) {
+    copy_vertices(state, leaf, out);
+  } else {
+    map_runs(state, leaf, out);
+  }
+}
+
+// Joins the boxes of a leaf's triangles at the end of a step to those at its start.
+template <class Real>
+HWY_NOINLINE void join_leaf_end(const LazyState& end, std::uint32_t index, LaneBoxes* boxes) {
+  HWY_ALIGN Real ends[3][3 * kLeafTriangles + 2 * kLeafPadding];
+  Real* axes[3] = {ends[0], ends[1], ends[2]};
+  fill_vertices(end, end.tree->leaves[index], axes);
+  LaneBoxes later[3];
+  for (int k = 0; k < 3; ++k) {
+    bound_axis(end, index, axes[k], k, later);
+    for (std::size_t box = 0; box < 3; ++box)
+      for (std::size_t lane = 0; lane < (box == 2 ? 1 : kBlockWidth); ++lane) {
+        boxes[box].lo[k][lane] = std::min(boxes[box].lo[k][lane], later[box].lo[k][lane]);
+        boxes[box].hi[k][lane] = std::max(boxes[box].hi[k][lane], later[box].hi[k][lane]);
+      }
+  }
+}
+
+template <class Real>
 HWY_NOINLINE const LeafCacheOf<Real>& make_leaf(LazyState& state, std::uint32_t index,
                                                 FrameArena& arena) {
   static_assert(kLeafTriangles == 2 * kBlockWidth);
@@ -141,14 +167,11 @@ HWY_NOINLINE const LeafCacheOf<Real>& make_leaf(LazyState& state, std::uint32_t 
   auto* const mapped = static_cast<Real*>(
       arena.take(3 * room * sizeof(Real) + 3 * sizeof(LaneBoxes) + sizeof(LeafCacheOf<Real>)));
   Real* axes[3] = {mapped, mapped + room, mapped + 2 * room};
-  if (state.from_vertices) {
-    copy_vertices(state, leaf, axes);
-  } else {
-    map_runs(state, leaf, axes);
-  }
+  fill_vertices(state, leaf, axes);
   auto* const boxes = reinterpret_cast<LaneBoxes*>(mapped + 3 * room);
   auto& cache = *new (boxes + 3) LeafCacheOf<Real>;
   for (int k = 0; k < 3; ++k) bound_axis(state, index, axes[k], k, boxes);
+  if (state.end != nullptr) join_leaf_end<Real>(*state.end, index, boxes);
   cache.x = axes[0], cache.y = axes[1], cache.z = axes[2];
   cache.boxes = boxes, cache.whole = boxes + 2;
   leaves_in<Real>(state).put(index, &cache);

@@ -39,10 +39,14 @@ class Bits {
   std::uint32_t word_;
 };
 
-// Translation from one body's frame to another's, with the slacks that cover its rounding.
+// Translation from one body's frame to another's, with the slacks that cover its rounding. Over a
+// step it grows from `offset` by the difference of the velocities.
 struct Translation {
-  float offset[3], slack, slab_slack;
-  bool none;  // both have one frame and one reach: either's slack covers a test
+  float low[3], high[3];         // of boxes, with the slack
+  float middle[3], half_way[3];  // of slabs: at t = 1/2, and its half growth
+  float slab_slack;
+  bool moves;  // it grows
+  bool none;   // both have one frame and one reach: either's slack covers a test
 };
 
 // One child's bounds, read in place: copies of single floats into a struct that vectors are
@@ -59,37 +63,48 @@ struct ChildBounds {
   static float slab_slack() { return 0.0f; }
 };
 
-// ChildBounds moved into another body's frame and rounded outward.
+// ChildBounds moved into another body's frame, over all translations of a step, and rounded
+// outward.
 struct MovedBounds {
   const ChildBounds& child;
   const Translation& translation;
-  float lo(int k) const { return child.lo(k) + (translation.offset[k] - translation.slack); }
-  float hi(int k) const { return child.hi(k) + (translation.offset[k] + translation.slack); }
+  float lo(int k) const { return child.lo(k) + translation.low[k]; }
+  float hi(int k) const { return child.hi(k) + translation.high[k]; }
   float normal(int k) const { return child.normal(k); }
   float middle() const {
     float out = child.middle();
-    for (int k = 0; k < 3; ++k) out += child.normal(k) * translation.offset[k];
+    for (int k = 0; k < 3; ++k) out += child.normal(k) * translation.middle[k];
     return out;
   }
-  float half() const { return child.half() + slab_slack(); }
+  float half() const {
+    const float out = child.half() + slab_slack();
+    if (!translation.moves) return out;
+    float way = 0.0f;
+    for (int k = 0; k < 3; ++k) way += child.normal(k) * translation.half_way[k];
+    return out + std::abs(way);
+  }
   float slab_slack() const { return translation.slab_slack; }
 };
 
 // The translation from the frame of `from` to that of `to`.
 //
-// Claim: the slacks cover all rounding of MovedBounds and of a test with them.
+// Claim: the slacks cover all rounding of MovedBounds and of a test with them. Over a step, a point
+// of `from` at time t lies, in the frame of `to` at t, within its bounds moved by offset + t v.
+// Those moves are a segment; MovedBounds hold the bounds moved by all of it.
 //
-// Notation, as in bounds-inl.h: u = 2^-24; r is the sum of both reaches. Bounds of a child have
+// Notation, as in bounds-inl.h: u = 2^-24; v is the difference of the velocities, 0 in a frame. r
+// is the sum of both reaches and the largest |v| along an axis. Bounds of a child have
 // |coordinates| of at most 2.9 r, its slab |middle| + half of at most 15.3 r.
 //
-// Assumption: the bodies' boxes overlap, so the offset is at most r per axis. Where it is larger
-// than 2 r (beyond the doubles) nothing is excluded, by a finite slack: empty lanes stay empty.
+// Assumption: the bodies' boxes overlap, over a step that of `from` moved by all of v (may_meet),
+// so the offset is at most r per axis. Where it is larger than 2 r (beyond the doubles) nothing is
+// excluded, by a finite slack: empty lanes stay empty.
 //
 // Boxes:
-//   * The difference of the origins rounds once, in double: by 2^-53 of their |coordinates|. 8
-//     times that is taken, and 1e-36 for float underflow (`rounding`).
-//   * As a float the offset is wrong by u r, with the slack subtracted or added by u r more. In all
-//     2 u r; 4 u r is taken.
+//   * The differences of the origins at both ends round once each, in double: by 2^-53 of their
+//     |coordinates|. 8 times that is taken, and 1e-36 for float underflow (`rounding`).
+//   * As a float an end of the offset is wrong by u r, with the slack subtracted or added by u r
+//     more. In all 2 u r; 4 u r is taken.
 //   * Its sum with a bound is compared with a float. Rounding is monotone and leaves a float as it
 //     is, so the exact sum compares as the rounded one, or as equal.
 //
@@ -98,29 +113,42 @@ struct MovedBounds {
 //   * The float offset is wrong by sqrt(3) u r and its products with the normal by as much. Three
 //     sums for the middle, and one for half, are at most 15.3 r + sqrt(3) r = 17.1 r: 3 * 17.1 u r,
 //     with the products 55 u r.
+//   * Half of the way along v, at most sqrt(3) r / 2, is wrong by as much u as a float, in three
+//     products and two sums, and is added to half: 6 * 0.87 u r, and 17.1 u r for the sum. In all
+//     below 23 u r.
 //   * A moved box has |coordinates| of at most 3.9 r, rounded once: sqrt(3) * 3.9 u r, below 7 u r.
 //   * A test (bounds-inl.h) of slabs with W = 17.1 r and boxes with B = 3.9 r, sqrt(3) B below
 //     6.8 r: 2.5 for n - a m; 5 * 17.1 cos + 5 * 6.8 sin, below 93, for the sums (the slack is one
 //     more); for the comparison 17.1 and 17.1 cos + 6.8 sin, below 36. In all 131.5 u r.
-//   * In all 55 + 7 + 131.5 = 193.5 u r; 256 u r is taken.
+//   * In all 55 + 23 + 7 + 131.5 = 216.5 u r; 256 u r is taken.
 HWY_INLINE Translation translation_between(const LazyState& from, const LazyState& to) {
   constexpr double kUnit = 0x1p-24, kEverything = 1e29;
-  const double r = from.reach + to.reach;
-  double origins = 0.0, longest = 0.0;
-  Translation out;
+  double offset[3], way[3], origins = 0.0, longest = 0.0, widest = 0.0;
   for (int k = 0; k < 3; ++k) {
-    const double offset = (from.origin[k] - to.origin[k]) * to.scale;
-    longest = std::max(longest, std::abs(offset));
-    origins += (std::abs(from.origin[k]) + std::abs(to.origin[k])) * to.scale;
-    out.offset[k] = static_cast<float>(offset);
+    offset[k] = (from.origin[k] - to.origin[k]) * to.scale;
+    way[k] = (from.velocity[k] - to.velocity[k]) * to.scale;
+    longest = std::max(longest, std::abs(offset[k]));
+    widest = std::max(widest, std::abs(way[k]));
+    origins += (std::abs(from.origin[k]) + std::abs(to.origin[k]) + std::abs(from.velocity[k]) +
+                std::abs(to.velocity[k])) *
+               to.scale;
   }
+  const double r = from.reach + to.reach + widest;
   const double rounding = 8 * 0x1p-53 * origins + 1e-36;
   // False for NaN and infinity, too.
-  const bool sound = longest <= 2.0 * r + 1e-30 && rounding < kEverything;
-  out.slack = static_cast<float>(sound ? rounding + 4 * kUnit * r : kEverything);
+  const bool sound = longest <= 2.0 * r + 1e-30 && rounding < kEverything && r < kEverything;
+  const auto slack = static_cast<float>(sound ? rounding + 4 * kUnit * r : kEverything);
+  Translation out;
+  for (int k = 0; k < 3; ++k) {
+    if (!sound) offset[k] = way[k] = 0.0;
+    out.low[k] = static_cast<float>(offset[k] + std::min(way[k], 0.0)) - slack;
+    out.high[k] = static_cast<float>(offset[k] + std::max(way[k], 0.0)) + slack;
+    out.middle[k] = static_cast<float>(offset[k] + 0.5 * way[k]);
+    out.half_way[k] = static_cast<float>(0.5 * way[k]);
+  }
   out.slab_slack = static_cast<float>(sound ? 4 * rounding + 256 * kUnit * r : kEverything);
-  out.none = from.origin == to.origin && from.reach == to.reach;
-  if (!sound) out.offset[0] = out.offset[1] = out.offset[2] = 0.0f;
+  out.moves = from.velocity != to.velocity;
+  out.none = !out.moves && from.origin == to.origin && from.reach == to.reach;
   return out;
 }
 

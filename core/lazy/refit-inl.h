@@ -54,6 +54,13 @@ HWY_INLINE FrameBox box_of_leaf(const LazyState& state, const TreeLeaf& leaf) {
   return box;
 }
 
+HWY_INLINE void join(const FrameBox& from, FrameBox& to) {
+  for (int k = 0; k < 3; ++k) {
+    to.lo[k] = from.lo[k] < to.lo[k] ? from.lo[k] : to.lo[k];
+    to.hi[k] = from.hi[k] > to.hi[k] ? from.hi[k] : to.hi[k];
+  }
+}
+
 HWY_INLINE FrameBox box_of_block(const LaneBoxes& lanes) {
   FrameBox box;
   for (int k = 0; k < 3; ++k) {
@@ -76,6 +83,8 @@ HWY_INLINE void refit(LazyState& state, FrameArena& arena) {
         for (int k = 0; k < 3; ++k) box.lo[k] = kInfinity, box.hi[k] = -kInfinity;
       } else if (block.child[c].leaf()) {
         box = box_of_leaf<Real>(state, tree.leaves[block.child[c].index()]);
+        if (state.end != nullptr)
+          join(box_of_leaf<Real>(*state.end, tree.leaves[block.child[c].index()]), box);
       } else {
         box = box_of_block(state.blocks.find(block.child[c].index())->box);
       }

@@ -31,7 +31,7 @@ class PairTraversal {
         first_only_(first_only),
         scratch_(scratch),
         out_(out),
-        patches_(&bodies.a == &bodies.b ? bodies.a.patches : nullptr),
+        patches_(&bodies.a == &bodies.b && bodies.a.end == nullptr ? bodies.a.patches : nullptr),
         slabs_(!bodies.a.from_vertices && !bodies.b.from_vertices),
         to_a_(translation_between(bodies.b, bodies.a)),
         to_b_(translation_between(bodies.a, bodies.b)) {

@@ -1,6 +1,7 @@
 #include "core/types/contact_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/types/hash.h"
@@ -48,6 +49,29 @@ void add_implied_bodies(const std::vector<Pair>& pairs, std::vector<BodyPair>& b
   }
 }
 
+// Sorted, each pair of bodies once, with its earliest time: a time that is no number is the
+// earliest of all, so that whoever checks the set meets it.
+void sort_impacts(std::vector<BodyImpact>& impacts) {
+  const auto rank = [](const BodyImpact& impact) {
+    return !impact.time ? 2 : std::isnan(*impact.time) ? 0 : 1;
+  };
+  for (BodyImpact& impact : impacts) orient(impact.bodies);
+  std::sort(impacts.begin(), impacts.end(), [&](const BodyImpact& x, const BodyImpact& y) {
+    if (x.bodies != y.bodies) return x.bodies < y.bodies;
+    if (rank(x) != rank(y)) return rank(x) < rank(y);
+    return rank(x) == 1 && *x.time < *y.time;
+  });
+  const auto same = [](const BodyImpact& x, const BodyImpact& y) { return x.bodies == y.bodies; };
+  impacts.erase(std::unique(impacts.begin(), impacts.end(), same), impacts.end());
+}
+
+template <typename Pair>
+void add_implied_impacts(const std::vector<Pair>& pairs, std::vector<BodyImpact>& impacts) {
+  std::vector<BodyPair> bodies;
+  add_implied_bodies(pairs, bodies);
+  for (const BodyPair& pair : bodies) impacts.push_back({pair, std::nullopt});
+}
+
 void sort_contacts(std::vector<PieceContact>& contacts) {
   for (PieceContact& c : contacts) {
     if (c.pieces.body_a > c.pieces.body_b) c.normal = -c.normal;
@@ -90,15 +114,24 @@ void ContactSet::clear() {
 void ContactSet::canonicalize() {
   contactcheck::canonicalize(cells);
   contactcheck::canonicalize(triangles);
-  for (std::vector<SelfPair>* pairs : {&self, &self_cells}) {
+  for (std::vector<SelfPair>* pairs : {&self, &self_cells, &self_impact_edges}) {
     for (SelfPair& p : *pairs) orient(p);
     sort_unique(*pairs);
-    add_bodies(*pairs, self_bodies);
   }
+  add_bodies(self, self_bodies);
+  add_bodies(self_cells, self_bodies);
   sort_unique(self_near);
   add_bodies(self_near, self_bodies);
   sort_unique(self_bodies);
   for (BodyPair& p : bodies) orient(p);
+  contactcheck::canonicalize(impact_triangles);
+  contactcheck::canonicalize(impact_edges);
+  sort_unique(impact_vertices);
+  sort_unique(self_impact_vertices);
+  add_implied_impacts(impact_triangles, impacts);
+  add_implied_impacts(impact_edges, impacts);
+  add_implied_impacts(impact_vertices, impacts);
+  sort_impacts(impacts);
   sort_unique(vertices);
   sort_unique(near);
   sort_contacts(piece_contacts);
@@ -123,6 +156,12 @@ std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const Cont
   hash_ids(hash, contacts.self);
   hash_ids(hash, contacts.self_cells);
   for (const std::uint32_t body : contacts.self_bodies) hash.value(body);
+  hash_ids(hash, contacts.impacts);
+  hash_ids(hash, contacts.impact_triangles);
+  hash_ids(hash, contacts.impact_vertices);
+  hash_ids(hash, contacts.impact_edges);
+  hash_ids(hash, contacts.self_impact_vertices);
+  hash_ids(hash, contacts.self_impact_edges);
   return hash.digest();
 }
 

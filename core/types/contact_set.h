@@ -1,10 +1,11 @@
-// The answer of a detector to one frame: sets of pairs.
+// The answer of a detector to one frame, or to one step: sets of pairs.
 #pragma once
 
 #include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/types/vec3.h"
@@ -53,6 +54,14 @@ struct NearPair {
   auto operator<=>(const NearPair&) const = default;
 };
 
+/// Two bodies whose surfaces meet within a step, and when first; canonical when bodies.a <
+/// bodies.b.
+struct BodyImpact {
+  BodyPair bodies;
+  std::optional<double> time;  ///< a fraction of the step, in [0, 1]; none: not reported
+  std::array<std::uint32_t, 2> ids() const { return bodies.ids(); }
+};
+
 /// Two convex pieces in contact (triangles or mapped FFD-AABB boxes, by what the detector claims)
 /// and how to separate them: depth kind `convex-pair`.
 struct PieceContact {
@@ -69,8 +78,8 @@ struct VertexContact {
   Vec3 normal = Vec3::Zero();  ///< unit; moving the vertex by depth * normal takes it out
 };
 
-/// What was reported for one frame. A detector appends in any order and orientation and may repeat
-/// itself; canonicalize() makes it a set.
+/// What was reported for one frame or one step. A detector appends in any order and orientation and
+/// may repeat itself; canonicalize() makes it a set.
 struct ContactSet {
   std::vector<BodyPair> bodies;
   std::vector<ElementPair> cells;
@@ -82,6 +91,15 @@ struct ContactSet {
   std::vector<SelfPair> self;        ///< all three classes; the mesh tells which
   std::vector<SelfPair> self_cells;  ///< cells (level self-cell)
   std::vector<NearPair> self_near;   ///< other = body
+  /// This list and the next three answer the question `impacts`, about a step; edges are numbers of
+  /// MeshEdges.
+  std::vector<BodyImpact> impacts;
+  std::vector<ElementPair> impact_triangles;
+  std::vector<NearPair> impact_vertices;
+  std::vector<ElementPair> impact_edges;
+  /// These two answer the question `self-impacts`: other = body.
+  std::vector<NearPair> self_impact_vertices;
+  std::vector<SelfPair> self_impact_edges;
   /// For the question `contacts`, in addition to the sets above: several per pair or vertex are
   /// allowed.
   std::vector<PieceContact> piece_contacts;
@@ -91,7 +109,9 @@ struct ContactSet {
   void clear();
   /// Sorts all lists, and removes repeats from all but the two lists of contacts. Unordered pairs
   /// are oriented (lower body or element first), a contact's normal with them. Adds the body pairs
-  /// and bodies that pairs of triangles and cells, near pairs and self pairs imply.
+  /// and bodies that pairs of triangles and cells, near pairs and self pairs imply, and the impacts
+  /// of bodies, without a time, that those of elements imply. Of several impacts of two bodies the
+  /// earliest time is kept.
   void canonicalize();
 };
 
@@ -106,10 +126,20 @@ enum class ContactList : std::size_t {
   kSelf,
   kSelfCells,
   kSelfNear,
+  kImpacts,
+  kImpactTriangles,
+  kImpactVertices,
+  kImpactEdges,
+  kSelfImpactVertices,
+  kSelfImpactEdges,
   kPieceContacts,
   kVertexContacts
 };
-inline constexpr std::size_t kContactLists = 11;
+inline constexpr std::size_t kContactLists = 17;
+/// True for lists that answer questions about a step.
+constexpr bool is_of_step(ContactList list) {
+  return list >= ContactList::kImpacts && list <= ContactList::kSelfImpactEdges;
+}
 
 /// Calls visit(ContactList, list...) once per list, with that list of each of `sets`. Code that
 /// treats all lists alike uses it, so a new list needs only one line here.
@@ -124,12 +154,18 @@ void for_each_list(const Visit& visit, Set&... sets) {
   visit(ContactList::kSelf, sets.self...);
   visit(ContactList::kSelfCells, sets.self_cells...);
   visit(ContactList::kSelfNear, sets.self_near...);
+  visit(ContactList::kImpacts, sets.impacts...);
+  visit(ContactList::kImpactTriangles, sets.impact_triangles...);
+  visit(ContactList::kImpactVertices, sets.impact_vertices...);
+  visit(ContactList::kImpactEdges, sets.impact_edges...);
+  visit(ContactList::kSelfImpactVertices, sets.self_impact_vertices...);
+  visit(ContactList::kSelfImpactEdges, sets.self_impact_edges...);
   visit(ContactList::kPieceContacts, sets.piece_contacts...);
   visit(ContactList::kVertexContacts, sets.vertex_contacts...);
 }
 
 /// Hash of a canonical set, chained over frames: `previous` is the value of the frame before. The
-/// two lists of contacts, with their depths and normals, are not hashed.
+/// two lists of contacts, with their depths and normals, are not hashed, nor times of impacts.
 std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const ContactSet& contacts);
 
 }  // namespace contactcheck

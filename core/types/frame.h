@@ -1,4 +1,4 @@
-// One frame of a scene: the input of every detector.
+// One frame of a scene, and one step: the input of every detector.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +22,14 @@ struct Frame {
   std::size_t index = 0;
   double time = 0.0;  ///< seconds
   std::vector<BodyState> bodies;
+};
+
+/// The motion from a frame of a scene to the next. Every vertex moves straight, at constant speed,
+/// from its place at t = 0, which is `start`, to that at t = 1: t is a fraction of the step. In
+/// between, vertices are not those of the nodes in between: mapping rounds at both ends.
+struct Step {
+  Frame start, end;
+  std::size_t index() const { return start.index; }
 };
 
 }  // namespace contactcheck

@@ -32,12 +32,27 @@ const char* name_of(Level level) {
       return "self-cell";
     case Level::kSelfNear:
       return "self-near";
+    case Level::kImpactVf:
+      return "impact-vf";
+    case Level::kImpactEe:
+      return "impact-ee";
+    case Level::kImpactTriangle:
+      return "impact-triangle";
+    case Level::kImpact:
+      return "impact";
+    case Level::kImpactSelfVf:
+      return "impact-self-vf";
+    case Level::kImpactSelfEe:
+      return "impact-self-ee";
   }
   return "unknown";
 }
 
 bool any_self(const std::vector<Level>& levels) {
   return std::any_of(levels.begin(), levels.end(), is_self);
+}
+bool any_impact(const std::vector<Level>& levels) {
+  return std::any_of(levels.begin(), levels.end(), is_impact);
 }
 
 NamedElements named_elements(Level level, bool missed) {
@@ -48,6 +63,7 @@ NamedElements named_elements(Level level, bool missed) {
     case Level::kSelf:
     case Level::kSelfVertex:
     case Level::kSelfEdge:
+    case Level::kImpactTriangle:
       return kTriangles;
     case Level::kCell:
     case Level::kSelfCell:
@@ -58,10 +74,16 @@ NamedElements named_elements(Level level, bool missed) {
       return {Element::kVertex, Element::kNone};
     case Level::kNear:
     case Level::kSelfNear:
+    case Level::kImpactVf:
+    case Level::kImpactSelfVf:
       return {Element::kVertex, Element::kTriangle};
+    case Level::kImpactEe:
+    case Level::kImpactSelfEe:
+      return {Element::kEdge, Element::kEdge};
     case Level::kBody:
     case Level::kContainment:
     case Level::kSelfBody:
+    case Level::kImpact:
       break;
   }
   return {};
@@ -79,6 +101,10 @@ const char* name_of(Question question) {
       return "contacts";
     case Question::kSelf:
       return "self";
+    case Question::kImpacts:
+      return "impacts";
+    case Question::kSelfImpacts:
+      return "self-impacts";
   }
   return "unknown";
 }

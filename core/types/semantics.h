@@ -24,29 +24,44 @@ enum class Level {
   kSelfEdge,    ///< pairs that share two vertices, and meet in more than the segment between them
   kSelfBody,    ///< bodies with any of the three
   kSelfCell,    ///< as kCell, of cells of one lattice that share no node
-  kSelfNear     ///< as kNear, of triangles that use neither the vertex nor one welded to it
+  kSelfNear,    ///< as kNear, of triangles that use neither the vertex nor one welded to it
+  // Levels of contact within a step, from a frame to the next (Step):
+  kImpactVf,        ///< a vertex of one body and a triangle of another
+  kImpactEe,        ///< an edge of each of two bodies
+  kImpactTriangle,  ///< triangles of two bodies, those in contact at the start among them
+  kImpact,          ///< pairs of bodies whose surfaces meet
+  kImpactSelfVf,    ///< as kImpactVf, of one body, without a common vertex (nor a welded one)
+  kImpactSelfEe     ///< as kImpactEe, likewise
 };
 
 /// In the order of tables and files.
 inline constexpr std::array kLevels = {
-    Level::kBody,     Level::kContainment, Level::kCell,    Level::kBox,        Level::kTriangle,
-    Level::kVertex,   Level::kNear,        Level::kSelf,    Level::kSelfVertex, Level::kSelfEdge,
-    Level::kSelfBody, Level::kSelfCell,    Level::kSelfNear};
+    Level::kBody,       Level::kContainment,  Level::kCell,        Level::kBox,
+    Level::kTriangle,   Level::kVertex,       Level::kNear,        Level::kSelf,
+    Level::kSelfVertex, Level::kSelfEdge,     Level::kSelfBody,    Level::kSelfCell,
+    Level::kSelfNear,   Level::kImpactVf,     Level::kImpactEe,    Level::kImpactTriangle,
+    Level::kImpact,     Level::kImpactSelfVf, Level::kImpactSelfEe};
 /// From fine to coarse: the first of these that a detector claims is its finest level.
 inline constexpr std::array kFineToCoarse = {
-    Level::kTriangle, Level::kNear,       Level::kVertex,     Level::kCell,     Level::kBox,
-    Level::kSelf,     Level::kSelfVertex, Level::kSelfEdge,   Level::kSelfNear, Level::kSelfCell,
-    Level::kSelfBody, Level::kBody,       Level::kContainment};
+    Level::kTriangle, Level::kNear,         Level::kVertex,         Level::kCell,
+    Level::kBox,      Level::kSelf,         Level::kSelfVertex,     Level::kSelfEdge,
+    Level::kSelfNear, Level::kSelfCell,     Level::kImpactTriangle, Level::kImpactVf,
+    Level::kImpactEe, Level::kImpactSelfVf, Level::kImpactSelfEe,   Level::kSelfBody,
+    Level::kBody,     Level::kImpact,       Level::kContainment};
 static_assert(kFineToCoarse.size() == kLevels.size(), "each level has its place");
 /// The classes of pairs of one body's triangles.
 inline constexpr std::array kSelfClasses = {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge};
-/// True for levels of contact of a body with itself.
-constexpr bool is_self(Level level) { return level >= Level::kSelf; }
+/// True for levels of contact of a body with itself, in a frame.
+constexpr bool is_self(Level level) { return level >= Level::kSelf && level <= Level::kSelfNear; }
+/// True for levels of contact within a step, of bodies with themselves among them.
+constexpr bool is_impact(Level level) { return level >= Level::kImpactVf; }
+constexpr bool is_self_impact(Level level) { return level >= Level::kImpactSelfVf; }
 /// True if one of `levels` is such a level.
 bool any_self(const std::vector<Level>& levels);
+bool any_impact(const std::vector<Level>& levels);
 
 /// The kind of element that an index of a contact refers to; kNone: the contact has no such index.
-enum class Element { kTriangle, kCell, kVertex, kNone };
+enum class Element { kTriangle, kCell, kVertex, kEdge, kNone };
 struct NamedElements {
   Element first = Element::kNone, second = Element::kNone;
   bool operator==(const NamedElements&) const = default;
@@ -57,18 +72,24 @@ NamedElements named_elements(Level level, bool missed);
 
 /// The kinds of query that a detector may answer.
 enum class Question {
-  kTriangles,  ///< all pairs of intersecting triangles
-  kBody,       ///< pairs of bodies in contact; early-out allowed
-  kCells,      ///< all pairs of colliding FFD cells
-  kContacts,   ///< all contacts with depth and normal, of the detector's kind of depth
-  kSelf        ///< all contacts of bodies with themselves
+  kTriangles,   ///< all pairs of intersecting triangles
+  kBody,        ///< pairs of bodies in contact; early-out allowed
+  kCells,       ///< all pairs of colliding FFD cells
+  kContacts,    ///< all contacts with depth and normal, of the detector's kind of depth
+  kSelf,        ///< all contacts of bodies with themselves
+  kImpacts,     ///< all contacts between bodies within a step
+  kSelfImpacts  ///< all contacts of bodies with themselves within a step
 };
 /// In the order of tables and files.
-inline constexpr std::array kQuestions = {Question::kTriangles, Question::kBody, Question::kCells,
-                                          Question::kContacts, Question::kSelf};
+inline constexpr std::array kQuestions = {
+    Question::kTriangles, Question::kBody,    Question::kCells,      Question::kContacts,
+    Question::kSelf,      Question::kImpacts, Question::kSelfImpacts};
 
 enum class Precision { kDouble, kSingle };
 enum class DepthKind { kNone, kVertexSurface, kConvexPair };
+
+/// True for questions about a step; the others are about a frame.
+constexpr bool is_of_steps(Question question) { return question >= Question::kImpacts; }
 
 const char* name_of(Level level);
 const char* name_of(Question question);

@@ -22,6 +22,9 @@ Adapter embree_adapter();
 Adapter fcl_adapter();
 Adapter libccd_adapter();
 
+/// Another of FCL's, in a file of its own.
+DetectorInfo fcl_ccd_detector();
+
 /// Detectors of elementary impacts.
 ImpactDetectorInfo bullet_impact_detector();
 ImpactDetectorInfo fcl_impact_detector();

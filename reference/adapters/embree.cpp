@@ -1,8 +1,10 @@
-// Embree's scene-against-scene collision as a detector: the fast peer.
+// Embree's scene-against-scene collision as detectors: the fast peers.
 //
-//   embree  one hierarchy of boxes per body, refitted or built anew (option `build`); rtcCollide
-//           names pairs of triangles in leaves whose boxes overlap; core's exact test decides,
-//           eight pairs at a time
+//   embree        one hierarchy of boxes per body, refitted or built anew (option `build`);
+//                 rtcCollide names pairs of triangles in leaves whose boxes overlap; core's exact
+//                 test decides, eight pairs at a time
+//   embree-swept  the same of steps: boxes of triangles over both ends, core's exact tests of
+//                 vertices, triangles and edges
 //
 // Embree only culls, in single precision, with boxes rounded outward: the answer is exact for all
 // finite doubles, closed (touching is contact) and about surfaces. Single threaded, and it leaves
@@ -41,6 +43,9 @@
 #include <utility>
 
 #include "core/broad/adjacent_pairs.h"
+#include "core/broad/body_pairs.h"
+#include "core/detect/step_contacts.h"
+#include "core/detect/swept_detector.h"
 #include "core/detect/triangle_pair_detector.h"
 #include "core/detect/triangle_record.h"
 #include "core/lazy/kernels.h"
@@ -118,6 +123,13 @@ class EmbreeBody {
       vertices_[v] = float_vertex(vertices[v], scale);
   }
 
+  /// The same of a step: boxes are then around both ends.
+  void set_step(std::span<const Vec3> start, std::span<const Vec3> end, double scale) {
+    set_vertices(start, scale);
+    ends_.resize(end.size());
+    for (std::size_t v = 0; v < end.size(); ++v) ends_[v] = float_vertex(end[v], scale);
+  }
+
   void commit() {
     rtcCommitGeometry(geometry_.get());
     rtcCommitScene(scene_.get());
@@ -133,7 +145,14 @@ class EmbreeBody {
     const Triangle& t = body.triangles_[arguments->primID];
     const FloatVertex &a = body.vertices_[t[0]], &b = body.vertices_[t[1]],
                       &c = body.vertices_[t[2]];
-    const FloatVertex lo = a.min(b).min(c) - kPadding, hi = a.max(b).max(c) + kPadding;
+    FloatVertex lo = a.min(b).min(c), hi = a.max(b).max(c);
+    if (!body.ends_.empty()) {
+      const FloatVertex &p = body.ends_[t[0]], &q = body.ends_[t[1]], &r = body.ends_[t[2]];
+      lo = lo.min(p).min(q).min(r);
+      hi = hi.max(p).max(q).max(r);
+    }
+    lo -= kPadding;
+    hi += kPadding;
     RTCBounds& out = *arguments->bounds_o;
     out.lower_x = lo.x(), out.lower_y = lo.y(), out.lower_z = lo.z();
     out.upper_x = hi.x(), out.upper_y = hi.y(), out.upper_z = hi.z();
@@ -144,6 +163,7 @@ class EmbreeBody {
   Owned<RTCGeometry> geometry_;
   std::span<const Triangle> triangles_;  // of the body's shape, which outlives the detector
   std::vector<FloatVertex> vertices_;
+  std::vector<FloatVertex> ends_;  // of a step; empty of frames
 };
 
 // Not the user's settings (.embree3 files beside the program and at home).
@@ -381,6 +401,128 @@ class EmbreeDetector final : public BodyPairDetector {
   const std::fenv_t* environment_ = nullptr;  // the caller's, of find_first()
 };
 
+/// Candidates are pairs of triangles whose boxes over the step overlap, by Embree; StepContacts
+/// decides, as in swept-aabb. Bodies whose boxes over the step meet no other's are not refitted.
+class EmbreeSwept final : public Detector {
+ public:
+  EmbreeSwept()
+      : arena_(std::make_unique<tbb::task_arena>(1)), device_(rtcNewDevice(kDeviceConfiguration)) {
+    if (!device_) require_ok(nullptr, "rtcNewDevice");
+  }
+
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return true; }
+
+  void prepare(const std::vector<Body>& bodies) override {
+    contacts_.prepare(bodies);
+    bodies_.clear();
+    shapes_.clear();
+    for (const Body& body : bodies) {
+      const TriangleMesh& mesh = body.shape->mesh;
+      shapes_.push_back(body.shape.get());
+      bodies_.push_back(std::make_unique<EmbreeBody>(device_.get(), mesh, RTC_BUILD_QUALITY_REFIT));
+      bodies_.back()->set_step(mesh.vertices, mesh.vertices,
+                               normalising_scale(largest_coordinate(bounding_box(mesh.vertices))));
+      arena_->execute([&] { bodies_.back()->commit(); });
+    }
+  }
+
+  void update(const Frame&) override {
+    throw std::logic_error("embree-swept answers questions of steps alone");
+  }
+
+  void update_step(const Step& step) override {
+    contacts_.begin(step);
+    start_.clear();
+    end_.clear();
+    boxes_.clear();
+    double largest = 0.0;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      start_.push_back(step.start.bodies[b].vertices);
+      end_.push_back(step.end.bodies[b].vertices);
+      Aabb& box = boxes_.emplace_back();
+      for (const auto vertices : {start_[b], end_[b]})
+        for (const Vec3& vertex : vertices) box.extend(vertex);
+      largest = std::max(largest, largest_coordinate(box));
+    }
+    scale_ = normalising_scale(largest);
+    pairs_.clear();
+    find_candidate_bodies(boxes_, pairs_);
+    moved_.assign(bodies_.size(), false);
+    for (const BodyPair& pair : pairs_)
+      for (const std::uint32_t body : pair.ids()) move(body);
+  }
+
+  void query(Question question, ContactSet& out) override {
+    CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+    if (question == Question::kSelfImpacts) {
+      for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+        refuse_many_adjacent_pairs(shapes_[body]->linked());
+        move(body);
+        find_candidates({body, body});
+        // Each pair comes in both orders.
+        for (const auto& [i, j] : candidates_)
+          if (i < j) contacts_.add_own({body, i, j}, out);
+      }
+      return;
+    }
+    for (const BodyPair& pair : pairs_) {
+      find_candidates(pair);
+      for (const auto& [i, j] : candidates_) contacts_.add({pair.a, pair.b, i, j}, out);
+    }
+    contacts_.finish(out);
+  }
+
+  std::vector<Count> counts() override { return {{"element_tests", contacts_.tested()}}; }
+
+ private:
+  void move(std::uint32_t body) {
+    if (moved_[body]) return;
+    moved_[body] = true;
+    bodies_[body]->set_step(start_[body], end_[body], scale_);
+    arena_->execute([&] { bodies_[body]->commit(); });
+  }
+
+  void find_candidates(BodyPair pair) {
+    candidates_.clear();
+    arena_->execute([&] {
+      rtcCollide(bodies_[pair.a]->scene(), bodies_[pair.b]->scene(), &EmbreeSwept::collect, this);
+    });
+    require_ok(device_.get(), "rtcCollide");
+  }
+
+  // Flush-to-zero is on in here: ids are taken down, nothing is judged.
+  static void collect(void* detector, RTCCollision* collisions, unsigned count) {
+    auto& out = static_cast<EmbreeSwept*>(detector)->candidates_;
+    for (unsigned i = 0; i < count; ++i)
+      out.emplace_back(collisions[i].primID0, collisions[i].primID1);
+  }
+
+  const Semantics semantics_ = exact_step_semantics(true);
+  std::unique_ptr<tbb::task_arena> arena_;           // one slot: the calling thread's
+  Owned<RTCDevice> device_;                          // outlives the scenes
+  std::vector<std::unique_ptr<EmbreeBody>> bodies_;  // Embree holds their addresses
+  std::vector<const BodyShape*> shapes_;
+  StepContacts contacts_;
+  std::vector<std::span<const Vec3>> start_, end_;  // vertices of the last update
+  double scale_ = 1.0;
+  std::vector<Aabb> boxes_;
+  std::vector<BodyPair> pairs_;
+  std::vector<bool> moved_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates_;  // kept for its capacity
+};
+
+DetectorInfo swept_info() {
+  DetectorInfo info;
+  info.id = "embree-swept";
+  info.summary =
+      "contact between frames: Embree's hierarchies of boxes over both ends of a step and "
+      "rtcCollide; exact tests of vertices, triangles and edges";
+  info.given = std::string(kSweepAndPrune) + "core's exact tests, as in ffd-lazy";
+  info.make = [](const Options&) { return std::make_unique<EmbreeSwept>(); };
+  return info;
+}
+
 }  // namespace
 
 Adapter embree_adapter() {
@@ -402,7 +544,7 @@ Adapter embree_adapter() {
                                                         : RTC_BUILD_QUALITY_REFIT;
     return std::make_unique<EmbreeDetector>(quality, prefilter_of(options));
   };
-  return {"embree", RTC_VERSION_STRING, {std::move(info)}};
+  return {"embree", RTC_VERSION_STRING, {std::move(info), swept_info()}};
 }
 
 }  // namespace contactcheck::adapters

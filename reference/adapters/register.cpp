@@ -22,6 +22,7 @@ std::vector<Adapter> adapters() {
 void register_reference_detectors(DetectorCatalog& catalog) {
   for (const Adapter& adapter : adapters())
     for (const DetectorInfo& detector : adapter.detectors) catalog.add(detector);
+  catalog.add(fcl_ccd_detector());
   catalog.add(fcl_impact_detector());
   catalog.add(bullet_impact_detector());
 }

@@ -11,6 +11,7 @@
 #include "reference/judge/episodes.h"
 #include "reference/judge/graded_errors.h"
 #include "reference/judge/run_notes.h"
+#include "reference/judge/step_judge.h"
 
 namespace contactcheck::judge {
 namespace {
@@ -41,6 +42,15 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
   oracle::Oracle oracle(scene.bodies);
   oracle::SurfaceGeometry geometry(scene.bodies);
   PairTally pairs;
+  const oracle::WantedSteps steps = wanted_steps(scene);
+  std::optional<oracle::StepOracle> step_oracle;
+  if (steps.between || steps.own) {
+    if (scene.frames < 2) {
+      judged.refused = "contact within steps is between frames, and there is only one";
+      return judged;
+    }
+    step_oracle.emplace(scene.bodies);
+  }
   for (std::size_t f = 0; f < scene.frames; ++f) {
     progress.enter(process::SharedProgress::kNoDetector, f, process::Phase::kTruth);
     const scene::FramePosition& position = judged.positions[f];
@@ -67,6 +77,9 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
     const Frame frame = judged.frame(f);
     try {
       judged.truth.push_back(oracle.judge(frame, wanted_truth(scene)));
+      if (step_oracle && f > 0)
+        judged.steps.push_back(
+            step_oracle->judge(judged.step(f - 1), judged.truth[f - 1].surface.triangles, steps));
     } catch (const RefusedInput& e) {
       judged.refused = "frame " + std::to_string(f) + ": " + e.what();
       return judged;
@@ -99,7 +112,9 @@ RoundedScene* rounded_scene(JudgingTools& tools, const Detector& detector,
   return tools.rounded({semantics.scale, semantics.local_origin});
 }
 std::vector<Level> levels_of_vertices(std::vector<Level> levels) {
-  std::erase_if(levels, [](Level level) { return level == Level::kCell || level == Level::kBox; });
+  std::erase_if(levels, [](Level level) {
+    return level == Level::kCell || level == Level::kBox || is_impact(level);
+  });
   return levels;
 }
 
@@ -125,16 +140,21 @@ class AccuracyPass {
         graded_(scene_.bodies, run.semantics, scene_.size()) {
     for (const Question question : run.semantics.questions)
       outcome_.answers.push_back({question, {}});
+    if (!tools.judged.steps.empty()) impacts_.emplace(tools.judged, run.semantics);
   }
 
+  // Frame f, and the step that begins there.
   void judge_frame(std::size_t f) {
-    ask_own_question(f);
-    ask_other_questions(f);
-    hash_ = chain_hash(hash_, f, contacts_);
+    contacts_.clear();
+    ask_about(f, false);
     progress_.enter(position_, f, process::Phase::kTrace);
     const StageTrace trace = detector_.trace();
     notes_.add_frame(detector_.notes());
     called("trace");
+    if (f + 1 < scene_.frames) ask_about(f, true);
+    true_pairs_.push_back(true_body_pairs(run_.semantics.solid, tools_.judged.truth[f]));
+    reported_pairs_.push_back(own_bodies_);
+    hash_ = chain_hash(hash_, f, contacts_);
     progress_.enter(process::SharedProgress::kNoDetector, f, process::Phase::kTruth);
     compare(f);
     grade(f);
@@ -158,7 +178,9 @@ class AccuracyPass {
     outcome_.disagreements = std::move(totals_.disagreements);
     if (scene_.grades_lengths()) run_.geometry = graded_.summary();
     run_.geometry.depth_kind = run_.semantics.depth;
-    if (scene_.follows_time()) run_.geometry.episodes = find_episodes(true_pairs_, reported_pairs_);
+    if (impacts_) run_.impacts = std::move(impacts_->sums);
+    if (scene_.follows_time() && !is_of_steps(run_.semantics.questions.front()))
+      run_.geometry.episodes = find_episodes(true_pairs_, reported_pairs_);
     sum_up_episodes(run_.geometry);  // once more when gaps are measured
     for (const std::string& why : tools_.judged.open)
       if (run_.semantics.solid && !why.empty())
@@ -182,33 +204,59 @@ class AccuracyPass {
     run_.prepared_bytes = run_.memory_bytes = static_cast<std::uint64_t>(std::max<long>(held, 0));
     called("prepare");
     run_.semantics = semantics_in(scene_.levels, detector_.semantics());
+    if (run_.semantics.questions.empty())
+      throw RefusedInput(
+          "it answers about steps from frame to frame alone, and the scene has no level of them");
     return held;
   }
 
-  void ask_own_question(std::size_t f) {
-    const Question own = run_.semantics.questions.front();
-    contacts_.clear();
+  // Asks all questions about a frame, or about the step that begins there. Each list is then that
+  // of the answer it is judged by.
+  void ask_about(std::size_t f, bool step) {
+    bool given = false;
+    for (JudgedQuestion& asking : outcome_.answers) {
+      const Question question = asking.question;
+      if (is_of_steps(question) != step) continue;
+      const bool own = question == run_.semantics.questions.front();
+      if (!given) give(f, step, own);
+      given = true;
+      answer_.clear();
+      progress_.enter(position_, f, process::Phase::kQuery);
+      const std::uint64_t heap_before = heap_in_use(), list_before = list_bytes(answer_);
+      detector_.query(question, answer_);
+      if (own) {
+        // The list of contacts is ours, and grows while it is filled.
+        held_ += heap_growth(heap_before) - static_cast<long>(list_bytes(answer_) - list_before);
+        run_.memory_bytes =
+            std::max(run_.memory_bytes, static_cast<std::uint64_t>(std::max<long>(held_, 0)));
+      }
+      called("query");
+      answer_.canonicalize();
+      check_answer(scene_, f, answer_);
+      asking.frames.push_back(fingerprint_of(answer_, asked(question, run_.semantics)));
+      if (own) {
+        add_counts(detector_.counts());
+        own_bodies_ = answer_.bodies;
+      }
+      for_each_list(
+          [&](ContactList list, auto& judged, const auto& answered) {
+            if (own ? is_of_step(list) == step : question_about(list, run_.semantics) == question)
+              judged = answered;
+          },
+          contacts_, answer_);
+    }
+  }
+
+  void give(std::size_t f, bool step, bool own) {
     progress_.enter(position_, f, process::Phase::kUpdate);
-    std::uint64_t heap_before = heap_in_use();
-    detector_.update(tools_.judged.frame(f));
-    held_ += heap_growth(heap_before);
+    const std::uint64_t heap_before = heap_in_use();
+    if (step) {
+      detector_.update_step(tools_.judged.step(f));
+    } else {
+      detector_.update(tools_.judged.frame(f));
+    }
+    if (own) held_ += heap_growth(heap_before);
     called("update");
-    progress_.enter(position_, f, process::Phase::kQuery);
-    heap_before = heap_in_use();
-    const std::uint64_t list_before = list_bytes(contacts_);
-    detector_.query(own, contacts_);
-    // The list of contacts is ours, and grows while it is filled.
-    held_ += heap_growth(heap_before) - static_cast<long>(list_bytes(contacts_) - list_before);
-    run_.memory_bytes =
-        std::max(run_.memory_bytes, static_cast<std::uint64_t>(std::max<long>(held_, 0)));
-    called("query");
-    contacts_.canonicalize();
-    check_answer(scene_, f, contacts_);
-    outcome_.answers.front().frames.push_back(
-        fingerprint_of(contacts_, asked(own, run_.semantics)));
-    add_counts(detector_.counts());
-    true_pairs_.push_back(true_body_pairs(run_.semantics.solid, tools_.judged.truth[f]));
-    reported_pairs_.push_back(contacts_.bodies);
   }
 
   void add_counts(const std::vector<Count>& counts) {
@@ -218,30 +266,31 @@ class AccuracyPass {
     for (std::size_t i = 0; i < counts.size(); ++i) run_.counters[i].second += counts[i].value;
   }
 
-  // Each list is then that of the answer it is judged by.
-  void ask_other_questions(std::size_t f) {
-    for (std::size_t q = 1; q < outcome_.answers.size(); ++q) {
-      const Question question = outcome_.answers[q].question;
-      ask(detector_, question, scene_, f, other_);
-      outcome_.answers[q].frames.push_back(fingerprint_of(other_, asked(question, run_.semantics)));
-      called("query");
-      for_each_list(
-          [&](ContactList list, auto& judged, const auto& answered) {
-            if (question_about(list, run_.semantics) == question) judged = answered;
-          },
-          contacts_, other_);
-    }
-  }
-
   void compare(std::size_t f) {
     const Semantics& semantics = run_.semantics;
     const TrueNear near =
         true_near(tools_.oracle, tools_.judged.frame(f), levels_, semantics.margin);
     for (const Level level : levels_) {
+      // After the last frame there is no step: nothing is true or reported there.
+      if (is_impact(level)) {
+        totals_.add(f, level,
+                    f + 1 < scene_.frames
+                        ? compare_step_at(level, tools_.judged.steps[f].contacts, contacts_)
+                        : LevelComparison{});
+        continue;
+      }
       const LevelComparison comparison =
           compare_at(level, scene_.bodies, semantics, tools_.judged.truth[f], contacts_, near);
       totals_.add(f, level, comparison);
       if (level == Level::kTriangle) exchanged_.add_frame(comparison);
+    }
+    if (impacts_ && f > 0) impacts_->add(f - 1, reported_pairs_[f - 1], reported_pairs_[f], step_);
+    if (impacts_) {
+      for_each_list(
+          [](ContactList list, auto& kept, const auto& answered) {
+            if (is_of_step(list)) kept = answered;
+          },
+          step_, contacts_);
     }
   }
 
@@ -279,7 +328,11 @@ class AccuracyPass {
   RoundedScene* rounded_;  ///< null: fed no rounded vertices
   std::vector<Level> rounded_levels_;
 
-  ContactSet contacts_, other_;
+  ContactSet contacts_;  ///< what is judged of all answers about a frame and its step
+  ContactSet answer_;
+  std::vector<BodyPair> own_bodies_;
+  ContactSet step_;  ///< the answer about the step before this frame
+  std::optional<StepSums> impacts_;
   AccuracyOutcome outcome_;
   LevelTotals totals_, rounded_totals_;
   GradedErrors graded_;

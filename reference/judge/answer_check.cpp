@@ -70,19 +70,34 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
   };
   for (const SelfPair& p : contacts.self) check_own("triangle", p, triangles_of);
   for (const SelfPair& p : contacts.self_cells) check_own("cell", p, cells_of);
-  for (const NearPair& p : contacts.self_near) {
+  const auto check_own_vertex = [&](const NearPair& p) {
     check_body(p.body);
     check_element("vertex", p.body, p.vertex, shape(p.body).mesh.vertices.size());
     check_element("triangle", p.body, p.triangle, triangles_of(p.body));
+  };
+  for (const NearPair& p : contacts.self_near) check_own_vertex(p);
+  // There are fewer edges than corners of triangles; a number that is none is spurious at worst.
+  const auto edges_of = [&](std::uint32_t body) { return 3 * triangles_of(body); };
+  for (const NearPair& p : contacts.self_impact_vertices) check_own_vertex(p);
+  for (const SelfPair& p : contacts.self_impact_edges) check_own("edge", p, edges_of);
+  for (const BodyImpact& impact : contacts.impacts) {
+    check_pair(impact.bodies.a, impact.bodies.b);
+    if (impact.time && !(*impact.time >= 0.0 && *impact.time <= 1.0))
+      fail("holds a time of contact that is not within [0, 1]");
   }
+  for (const ElementPair& p : contacts.impact_triangles)
+    check_elements("triangle", p, triangles_of);
+  for (const ElementPair& p : contacts.impact_edges) check_elements("edge", p, edges_of);
   for (const BodyPair& p : contacts.bodies) check_pair(p.a, p.b);
   for (const ElementPair& p : contacts.triangles) check_triangles(p);
   for (const ElementPair& p : contacts.cells) check_cells(p);
   for (const VertexInBody& v : contacts.vertices) check_vertex(v);
-  for (const NearPair& p : contacts.near) {
+  const auto check_near = [&](const NearPair& p) {
     check_vertex({p.body, p.other, p.vertex});
     check_element("triangle", p.other, p.triangle, triangles_of(p.other));
-  }
+  };
+  for (const NearPair& p : contacts.near) check_near(p);
+  for (const NearPair& p : contacts.impact_vertices) check_near(p);
   for (const PieceContact& c : contacts.piece_contacts) {
     check_pair(c.pieces.body_a, c.pieces.body_b);
     if (std::binary_search(contacts.cells.begin(), contacts.cells.end(), c.pieces)) {

@@ -18,6 +18,12 @@ constexpr const char* kRecords[kContactLists] = {"pairs of bodies",
                                                  "pairs of one body's triangles",
                                                  "pairs of one body's cells",
                                                  "near pairs of one body",
+                                                 "pairs of bodies within a step",
+                                                 "pairs of triangles within a step",
+                                                 "vertices with triangles within a step",
+                                                 "pairs of edges within a step",
+                                                 "vertices with triangles of their body",
+                                                 "pairs of edges of one body",
                                                  "contacts of pieces",
                                                  "contacts of vertices"};
 

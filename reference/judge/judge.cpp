@@ -104,6 +104,24 @@ bool in_cells_apart(const BodyShape& shape, const SelfPair& triangles) {
   return true;
 }
 
+// Contact between bodies and within them, in frames and within steps, are computed only where a
+// scene names them.
+enum class Subject { kFrames, kSelf, kSteps, kSelfSteps };
+
+Subject subject_of(Level level) {
+  return is_self(level)          ? Subject::kSelf
+         : is_self_impact(level) ? Subject::kSelfSteps
+         : is_impact(level)      ? Subject::kSteps
+                                 : Subject::kFrames;
+}
+
+Subject subject_of(Question question) {
+  return question == Question::kSelf          ? Subject::kSelf
+         : question == Question::kSelfImpacts ? Subject::kSelfSteps
+         : question == Question::kImpacts     ? Subject::kSteps
+                                              : Subject::kFrames;
+}
+
 }  // namespace
 
 NamedElements elements_of(const std::string& level, const std::string& kind) {
@@ -153,12 +171,17 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies,
 }
 
 Semantics semantics_in(const std::vector<Level>& wanted, Semantics semantics) {
-  const bool self = any_self(wanted);
-  const bool others = !std::all_of(wanted.begin(), wanted.end(), is_self);
-  std::erase_if(semantics.levels, [&](Level level) { return is_self(level) ? !self : !others; });
-  if (self && !others && !semantics.answers(Question::kSelf)) return semantics;
-  std::erase_if(semantics.questions,
-                [&](Question question) { return question == Question::kSelf ? !self : !others; });
+  const auto is_wanted = [&](auto subject) {
+    return std::any_of(wanted.begin(), wanted.end(),
+                       [&](Level level) { return subject_of(level) == subject_of(subject); });
+  };
+  std::erase_if(semantics.levels, [&](Level level) { return !is_wanted(level); });
+  const auto unwanted = [&](Question question) { return !is_wanted(question); };
+  // One of frames that answers nothing of it is asked and timed all the same.
+  if (!is_of_steps(semantics.questions.front()) &&
+      std::all_of(semantics.questions.begin(), semantics.questions.end(), unwanted))
+    return semantics;
+  std::erase_if(semantics.questions, unwanted);
   return semantics;
 }
 
@@ -192,9 +215,10 @@ Question question_of(Level level, const Semantics& semantics) {
   if (level == Level::kCell || level == Level::kBox) about = Question::kCells;
   if (level == Level::kTriangle) about = Question::kTriangles;
   if (is_self(level)) return Question::kSelf;
+  if (is_impact(level)) return is_self_impact(level) ? Question::kSelfImpacts : Question::kImpacts;
   if (about && semantics.answers(*about)) return *about;
   for (const Question question : semantics.questions)
-    if (question != Question::kBody && question != Question::kSelf) return question;
+    if (question != Question::kBody && subject_of(question) == Subject::kFrames) return question;
   return Question::kBody;
 }
 
@@ -215,6 +239,14 @@ Question question_about(ContactList list, const Semantics& semantics) {
     case ContactList::kSelfCells:
     case ContactList::kSelfNear:
       return question_of(Level::kSelf, semantics);
+    case ContactList::kImpacts:
+    case ContactList::kImpactTriangles:
+    case ContactList::kImpactVertices:
+    case ContactList::kImpactEdges:
+      return Question::kImpacts;
+    case ContactList::kSelfImpactVertices:
+    case ContactList::kSelfImpactEdges:
+      return Question::kSelfImpacts;
     case ContactList::kPieceContacts:
     case ContactList::kVertexContacts:
       return Question::kContacts;
@@ -315,6 +347,13 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
       out.counts.reported = reported.self_cells.size();
       break;
     }
+    case Level::kImpactVf:
+    case Level::kImpactEe:
+    case Level::kImpactTriangle:
+    case Level::kImpact:
+    case Level::kImpactSelfVf:
+    case Level::kImpactSelfEe:
+      CONTACTCHECK_INVARIANT(false, "levels of steps are compared by compare_step_at()");
   }
   out.counts.missed = out.missed.size();
   out.counts.spurious = out.spurious.size();

@@ -56,9 +56,10 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies,
                                  const std::vector<Level>& wanted,
                                  std::map<Level, std::string>* not_judged);
 
-/// The part of `semantics` that a scene wants: without self-contact if the scene has no level of
-/// it, and only self-contact if the scene has no other level. A question that is left out is not
-/// asked and costs nothing.
+/// The part of `semantics` that a scene wants: contact of bodies with themselves, and within steps,
+/// only if the scene has a level of it, and only these if it has no other. A question that is left
+/// out is not asked and costs nothing. No question is left of a detector that answers about steps
+/// alone, in a scene without a level of them.
 Semantics semantics_in(const std::vector<Level>& wanted, Semantics semantics);
 
 /// The level (self, self-vertex or self-edge) of two different triangles of a shape; none for
@@ -75,9 +76,10 @@ std::vector<SelfPair> self_pairs(Level level, const std::vector<Body>& bodies,
 std::vector<SelfPair> pairs_of_cells_apart(const std::vector<Body>& bodies,
                                            const std::vector<SelfPair>& pairs);
 
-/// The question whose answer is judged at `level`: `self` for levels of self-contact; else the
-/// question about the level (`body`, `triangles`, `cells`) if the detector answers it; else its
-/// first question other than `body` and `self`; else `body`, whose answer may end early.
+/// The question whose answer is judged at `level`: `self` for levels of self-contact, `impacts` and
+/// `self-impacts` for those of steps; else the question about the level (`body`, `triangles`,
+/// `cells`) if the detector answers it; else its first question of frames other than `body` and
+/// `self`; else `body`, whose answer may end early.
 Question question_of(Level level, const Semantics& semantics);
 /// The question whose answer a list is judged by. Depths and normals are those of `contacts`.
 Question question_about(ContactList list, const Semantics& semantics);
@@ -100,7 +102,7 @@ TrueNear true_near(oracle::Oracle& oracle, const Frame& frame, const std::vector
 std::vector<BodyPair> true_body_pairs(bool solid, const oracle::Truth& truth);
 
 /// `near`: the true pairs within the detector's margin, for the levels `near` and `self-near`.
-/// @pre all sets are canonical
+/// @pre all sets are canonical; the level is one of frames (compare_step_at: of steps)
 LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const Semantics& semantics,
                            const oracle::Truth& truth, const ContactSet& reported,
                            const TrueNear& near = {});

@@ -91,9 +91,34 @@ oracle::WantedTruth wanted_truth(const scene::Scene& scene) {
   return wanted;
 }
 
+oracle::WantedSteps wanted_steps(const scene::Scene& scene) {
+  const auto any_of_levels = [&](auto&& is_wanted) {
+    return std::any_of(scene.levels.begin(), scene.levels.end(), is_wanted);
+  };
+  return {any_of_levels([](Level level) { return is_impact(level) && !is_self_impact(level); }),
+          any_of_levels(is_self_impact)};
+}
+
 Frame JudgedScene::frame(std::size_t index) const {
   const scene::FramePosition& position = positions[index];
   return make_frame(index, scene->time_of(index), position.nodes, position.vertices);
+}
+
+Step JudgedScene::step(std::size_t index) const {
+  Step step;
+  step.start = frame(index);
+  step.end = frame(index + 1);
+  return step;
+}
+
+std::vector<bool> JudgedScene::contact_steps() const {
+  std::vector<bool> out;
+  for (const oracle::StepTruth& step : steps) {
+    const ContactSet& c = step.contacts;
+    out.push_back(!c.impacts.empty() || !c.self_impact_vertices.empty() ||
+                  !c.self_impact_edges.empty());
+  }
+  return out;
 }
 
 std::vector<double> separations(const JudgedScene& judged, process::ProgressWriter& progress) {

@@ -9,6 +9,7 @@
 
 #include "reference/judge/judge.h"
 #include "reference/oracle/oracle.h"
+#include "reference/oracle/step_truth.h"
 #include "reference/process/shared_progress.h"
 #include "reference/scene/frame_positions.h"
 #include "reference/scene/random_pairs.h"
@@ -49,17 +50,24 @@ struct JudgedScene {
   /// Per frame the length of each true triangle pair, metres; empty if the scene grades no lengths.
   std::vector<std::vector<double>> contour;
   std::vector<bool> contact_frames;  ///< true for frames in which surfaces touch
-  double reach = 0.0;                ///< the largest |coordinate| of a vertex in any frame, metres
-  std::optional<PairTally> pairs;    ///< for a scene of random pairs
+  /// By step, one fewer than frames; empty if the scene does not judge contact within steps.
+  std::vector<oracle::StepTruth> steps;
+  double reach = 0.0;              ///< the largest |coordinate| of a vertex in any frame, metres
+  std::optional<PairTally> pairs;  ///< for a scene of random pairs
   std::string refused;  ///< not empty: the frame with a non-finite node, which ends the judging
 
-  /// The frame's spans are valid until another frame is requested.
+  /// The frame's spans are valid until two others have been requested.
   Frame frame(std::size_t index) const;
+  /// From this frame to the next; valid until another frame is requested.
+  Step step(std::size_t index) const;
+  /// By step: whether anything meets in it.
+  std::vector<bool> contact_steps() const;
 };
 
 /// What the scene needs from the oracle. Level `body` needs containment as well: it judges
 /// detectors that treat bodies as solids by it.
 oracle::WantedTruth wanted_truth(const scene::Scene& scene);
+oracle::WantedSteps wanted_steps(const scene::Scene& scene);
 
 /// A frame that refers to nodes and vertices, both [body][i]; they must outlive it.
 Frame make_frame(std::size_t index, double time, const std::vector<std::vector<Vec3>>& nodes,

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "reference/judge/judge.h"
+#include "reference/judge/step_judge.h"
 #include "reference/oracle/closed_chain.h"
 
 namespace contactcheck::judge {
@@ -27,6 +28,14 @@ std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedS
     sums[Level::kSelfBody] += t.surface.self_bodies.size();
     sums[Level::kSelfCell] +=
         cells ? pairs_of_cells_apart(judged.scene->bodies, t.surface.self).size() : 0;
+  }
+  for (const oracle::StepTruth& t : judged.steps) {
+    sums[Level::kImpactVf] += t.contacts.impact_vertices.size();
+    sums[Level::kImpactEe] += t.contacts.impact_edges.size();
+    sums[Level::kImpactTriangle] += t.contacts.impact_triangles.size();
+    sums[Level::kImpact] += t.contacts.impacts.size();
+    sums[Level::kImpactSelfVf] += t.contacts.self_impact_vertices.size();
+    sums[Level::kImpactSelfEe] += t.contacts.self_impact_edges.size();
   }
   std::map<Level, std::variant<std::uint64_t, std::string>> out;
   for (const auto& [level, sum] : sums) {
@@ -90,6 +99,12 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
   for (std::size_t f = 0; f < judged.truth.size(); ++f) {
     ContactSet surface = judged.truth[f].surface;
     surface.vertices.clear();  // triangle detectors report none
+    if (f < judged.steps.size())
+      for_each_list(
+          [](ContactList list, auto& kept, const auto& found) {
+            if (is_of_step(list)) kept = found;
+          },
+          surface, judged.steps[f].contacts);
     hash = chain_hash(hash, f, surface);
   }
   out.truth_hash = results::hex(hash);
@@ -119,6 +134,7 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
                  scene::kSweepTolerance * scene.size()};
   for (const scene::FitError& fit : scene.fits)
     out.fits.push_back({scene.bodies[fit.body].name, fit.rms, fit.max});
+  if (!judged.steps.empty()) out.impacts = scene_impacts(judged);
   if (judged.pairs) out.pairs = pairs_of(scene.pairs()->spec(), *judged.pairs);
   if (scene.drawn)
     out.drawn = {scene.drawn->seed, scene.drawn->number, scene.drawn->redrawn, scene.drawn->happens,

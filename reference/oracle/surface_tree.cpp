@@ -60,11 +60,15 @@ std::uint32_t SurfaceTree::build(std::uint32_t first, std::uint32_t last,
   return index;
 }
 
-void SurfaceTree::refit(std::span<const Vec3> vertices) {
-  vertices_ = vertices;
+void SurfaceTree::refit(std::span<const Vec3> start, std::span<const Vec3> end) {
+  const bool moves = start.data() != end.data();
+  vertices_ = start;
   for (std::size_t place = 0; place < order_.size(); ++place) {
     Aabb box;
-    for (std::uint32_t v : triangles_[order_[place]]) box.extend(vertices[v]);
+    for (std::uint32_t v : triangles_[order_[place]]) {
+      box.extend(start[v]);
+      if (moves) box.extend(end[v]);
+    }
     boxes_[place] = box;
   }
   for (std::size_t i = nodes_.size(); i-- > 0;) {

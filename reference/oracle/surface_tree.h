@@ -30,7 +30,9 @@ class SurfaceTree {
   explicit SurfaceTree(const TriangleMesh& rest);
 
   /// Fits the boxes to new vertices; the span must outlive its use.
-  void refit(std::span<const Vec3> vertices);
+  void refit(std::span<const Vec3> vertices) { refit(vertices, vertices); }
+  /// Fits the boxes to both ends of a step; corners() are those of its start.
+  void refit(std::span<const Vec3> start, std::span<const Vec3> end);
 
   const Aabb& bounds() const { return nodes_.front().box; }
   const Node& node(std::uint32_t index) const { return nodes_[index]; }

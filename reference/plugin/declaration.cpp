@@ -182,6 +182,10 @@ std::string semantics_fault(const Semantics& s) {
     return "it names a level twice (one that is claimed is not informative beside)";
   if (s.exact && s.levels.empty()) return "it is exact at no level";
 
+  if (std::any_of(levels.begin(), levels.end(), is_impact) ||
+      std::any_of(s.questions.begin(), s.questions.end(), is_of_steps))
+    return "it claims contact within steps, which detectors from outside are not asked about yet";
+
   // What is judged must have been asked for.
   if (s.questions.empty()) return "it answers no question";
   if (std::set<Question>(s.questions.begin(), s.questions.end()).size() != s.questions.size())

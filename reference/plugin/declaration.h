@@ -1,7 +1,7 @@
 // What a plug-in declares about its detector, be it a library or a command.
 #pragma once
 
-#include <iterator>
+#include <algorithm>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -15,7 +15,8 @@
 
 namespace contactcheck::plugin {
 
-// What contactcheck_plugin.h numbers from 0 on, in the order of its numbers; all values there are.
+// What contactcheck_plugin.h numbers from 0 on, in the order of its numbers: all values about
+// frames. Those about steps have bits of their own (CONTACTCHECK_IMPACT_...).
 inline constexpr Level kHeaderLevels[] = {
     Level::kBody,     Level::kContainment, Level::kCell,    Level::kBox,        Level::kTriangle,
     Level::kVertex,   Level::kNear,        Level::kSelf,    Level::kSelfVertex, Level::kSelfEdge,
@@ -23,8 +24,12 @@ inline constexpr Level kHeaderLevels[] = {
 inline constexpr Question kHeaderQuestions[] = {
     Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts, Question::kSelf};
 // One that is left out would be asked for as the first one.
-static_assert(std::size(kHeaderLevels) == std::size(kLevels));
-static_assert(std::size(kHeaderQuestions) == std::size(kQuestions));
+static_assert(std::all_of(kLevels.begin(), kLevels.end(), [](Level level) {
+  return is_impact(level) != (std::ranges::count(kHeaderLevels, level) == 1);
+}));
+static_assert(std::all_of(kQuestions.begin(), kQuestions.end(), [](Question question) {
+  return is_of_steps(question) != (std::ranges::count(kHeaderQuestions, question) == 1);
+}));
 inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision::kSingle};
 inline constexpr DepthKind kHeaderDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
                                                   DepthKind::kConvexPair};

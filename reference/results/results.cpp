@@ -69,6 +69,14 @@ const Plugin* Results::plugin_of(const std::string& detector) const {
   return found == plugins.end() ? nullptr : &*found;
 }
 
+std::optional<Question> goal_question(const Run& run, const Run& reference) {
+  if (run.times.empty()) return {};
+  for (const QuestionTimes& times : run.times)
+    if (!reference.times.empty() && times.question == reference.times.front().question)
+      return times.question;
+  return run.times.front().question;
+}
+
 Index::Index(const Results& results) : results_(&results) {
   for (const Scene& scene : results.scenes) scenes_.emplace(scene.id, &scene);
   std::set<std::string> seen;

@@ -165,6 +165,20 @@ struct ClosedLoop {
   std::size_t tunnelling_events = 0;
 };
 
+/// What a detector says of the steps from frame to frame, beside the counts of its levels.
+struct Impacts {
+  /// By step: pairs of bodies that meet within it and touch at neither end, and are not reported:
+  /// not in the step, or, by a detector of frames, at neither end.
+  std::vector<std::uint64_t> tunnelled;
+  /// Pairs of bodies that are reported with a time and do meet; how much earlier or later than the
+  /// first time the reported one is at most, fractions of the step.
+  std::uint64_t timed = 0;
+  std::optional<double> early_max, late_max;  ///< none without such a pair
+  /// Pairs of triangles that meet within a step and do not touch at its start, and those of them
+  /// that are not reported; none if it does not claim such pairs.
+  std::optional<std::uint64_t> new_triangles, new_missed;
+};
+
 /// Whole simulation steps, timed in lockstep: every detector steps from the same recorded states.
 /// Milliseconds per step: medians over repeats.
 struct StepTimes {
@@ -204,6 +218,7 @@ struct Run {
   std::string contact_hash;
   std::vector<std::string> float_environment;  ///< what the detector left changed
   std::vector<std::string> notes;              ///< other facts for the reader
+  std::optional<Impacts> impacts;              ///< if the scene judges contact within steps
   std::optional<ClosedLoop> closed_loop;
   std::optional<StepTimes> step_ms;
 
@@ -269,6 +284,16 @@ struct SceneScale {
   double reach = 0.0;  ///< the largest |coordinate| of a vertex in any frame
 };
 
+/// Contact within the steps from frame to frame, by step.
+struct SceneImpacts {
+  std::vector<double> motion;  ///< the largest of a vertex, in mean edges of its body at rest
+  /// Pairs of bodies that touch at the start; that meet and touch at neither end.
+  std::vector<std::uint64_t> starting, passing;
+  /// Pairs of triangles that meet and do not touch at the start, over all steps; those of them that
+  /// do not touch at the end either.
+  std::uint64_t new_triangles = 0, passing_triangles = 0;
+};
+
 struct Scene {
   std::string id, title;
   std::size_t frames = 0, contact_frames = 0;
@@ -287,7 +312,8 @@ struct Scene {
   std::optional<RandomPairs> pairs;
   std::optional<Drawn> drawn;
   std::optional<Simulation> simulation;
-  std::string unjudged, contacts;  ///< empty: absent
+  std::optional<SceneImpacts> impacts;  ///< if the scene judges contact within steps
+  std::string unjudged, contacts;       ///< empty: absent
 };
 
 struct Disagreement {
@@ -395,6 +421,10 @@ struct Results {
   /// The plug-in of a detector (named with or without options); null for the program's own.
   const Plugin* plugin_of(const std::string& detector) const;
 };
+
+/// The question in which a goal compares a row with that of a reference: the reference's own if the
+/// row was timed in it too, else the row's own; none if it was not timed.
+std::optional<Question> goal_question(const Run& run, const Run& reference);
 
 /// Looks up scenes and rows by name. The results must outlive it and not change. Unknown names give
 /// null or an empty list.

@@ -130,6 +130,17 @@ void fields(Io& io, ClosedLoop& c) {
 }
 
 template <typename Io>
+void fields(Io& io, Impacts& i) {
+  CONTACTCHECK_FIELDS(io, i, tunnelled, timed, early_max, late_max);
+  CONTACTCHECK_FIELDS(io.unless_empty, i, new_triangles, new_missed);
+}
+
+template <typename Io>
+void fields(Io& io, SceneImpacts& i) {
+  CONTACTCHECK_FIELDS(io, i, motion, starting, passing, new_triangles, passing_triangles);
+}
+
+template <typename Io>
 void fields(Io& io, StepTimes& t) {
   CONTACTCHECK_FIELDS(io, t, steps, repeats, mss, cell, test, response, total, test_by_repeat,
                       total_by_repeat);
@@ -169,7 +180,7 @@ void fields(Io& io, Run& run) {
   }
   CONTACTCHECK_FIELDS(io, run, memory_bytes, prepared_bytes, contact_hash, float_environment,
                       notes);
-  CONTACTCHECK_FIELDS(io.unless_empty, run, closed_loop, step_ms);
+  CONTACTCHECK_FIELDS(io.unless_empty, run, impacts, closed_loop, step_ms);
   if constexpr (!Io::kReads) {
     if (run.times.empty()) return;
     Json others = Json::array();
@@ -242,7 +253,7 @@ void fields(Io& io, Scene& s) {
   io.unless_empty("scale", s.scale);
   CONTACTCHECK_FIELDS(io, s, contact_frames, truth, truth_hash, bodies);
   CONTACTCHECK_FIELDS(io.unless_empty, s, separation, cold_frames, family, sweep, fits, pairs,
-                      drawn, simulation, unjudged, contacts);
+                      drawn, simulation, impacts, unjudged, contacts);
 }
 
 template <typename Io>

@@ -1,5 +1,7 @@
 #include "reference/scene/frame_positions.h"
 
+#include <utility>
+
 #include "core/types/check.h"
 
 namespace contactcheck::scene {
@@ -18,13 +20,16 @@ FramePositions::FramePositions(const Scene& scene) : scene_(&scene) {}
 
 const FramePosition& FramePositions::operator[](std::size_t frame) const {
   CONTACTCHECK_INVARIANT(scene_ != nullptr, "a scene was given");
-  if (held_frame_ != frame) {
-    held_frame_.reset();
-    held_.nodes = scene_->nodes_of_frame(frame);
-    held_.vertices = map_bodies(*scene_, held_.nodes);
-    held_frame_ = frame;
+  if (held_[0].frame == frame) return held_[0].position;
+  std::swap(held_[0], held_[1]);
+  Held& held = held_[0];
+  if (held.frame != frame) {
+    held.frame.reset();
+    held.position.nodes = scene_->nodes_of_frame(frame);
+    held.position.vertices = map_bodies(*scene_, held.position.nodes);
+    held.frame = frame;
   }
-  return held_;
+  return held.position;
 }
 
 }  // namespace contactcheck::scene

@@ -1,6 +1,7 @@
 // The nodes and vertices of a scene, frame by frame.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -18,21 +19,26 @@ struct FramePosition {
 std::vector<std::vector<Vec3>> map_bodies(const Scene& scene,
                                           const std::vector<std::vector<Vec3>>& nodes);
 
-/// Evaluates a frame on demand and caches only the last one: all frames need more memory than all
-/// detectors together, and mapping one again takes less time than any detector.
+/// Evaluates a frame on demand and caches only the last two, both ends of a step: all frames need
+/// more memory than all detectors together, and mapping one again takes less time than any
+/// detector.
 class FramePositions {
  public:
   FramePositions() = default;
   /// `scene` must outlive this object.
   explicit FramePositions(const Scene& scene);
 
-  /// The reference is valid until another frame is requested. @pre the scene has this frame
+  /// The reference is valid until two other frames have been requested. @pre the scene has this
+  /// frame
   const FramePosition& operator[](std::size_t frame) const;
 
  private:
   const Scene* scene_ = nullptr;
-  mutable FramePosition held_;
-  mutable std::optional<std::size_t> held_frame_;
+  struct Held {
+    std::optional<std::size_t> frame;
+    FramePosition position;
+  };
+  mutable std::array<Held, 2> held_;  // the last one requested is the first
 };
 
 }  // namespace contactcheck::scene

@@ -8,6 +8,7 @@
 
 #include "core/deform/atomic_file.h"
 #include "core/deform/lattice.h"
+#include "core/types/mesh_edges.h"
 #include "reference/suite/job.h"
 
 namespace contactcheck::suite {
@@ -45,6 +46,16 @@ Json element(const judge::JudgedScene& judged, const judge::Disagreement& d, Ele
     for (const std::uint32_t v : shape.mesh.triangles[id])
       corners.push_back(positions.vertices[body][v]);
     add_points(out, "vertices", corners);
+  } else if (kind == Element::kEdge) {
+    const std::vector<Edge> edges = mesh_edges(shape.mesh.triangles).edges;
+    out["edge"] = Json::array();
+    if (id >= edges.size()) return out;  // reported, and none
+    std::vector<Vec3> ends;
+    for (const std::uint32_t v : edges[id]) {
+      out["edge"].push_back(shape.given.number_of(v));
+      ends.push_back(positions.vertices[body][v]);
+    }
+    add_points(out, "vertices", ends);
   } else if (kind == Element::kCell) {
     out["cell"] = id;
     const Corners corners = corners_of(*shape.lattice, id, positions.nodes[body]);

@@ -87,7 +87,7 @@ void fields(Io& io, TurnAnswer& answer) {
 
 template <typename Io>
 void fields(Io& io, SceneAnswer& answer) {
-  CONTACTCHECK_FIELDS(io, answer, contact_frames, detectors, timed);
+  CONTACTCHECK_FIELDS(io, answer, contact_frames, contact_steps, detectors, timed);
 }
 
 // Texts of libraries may hold anything; JSON takes UTF-8 alone.

@@ -98,6 +98,7 @@ struct TurnAnswer {
 struct SceneAnswer {
   results::Scene scene;
   std::vector<bool> contact_frames;
+  std::vector<bool> contact_steps;  ///< by step, if the scene judges contact within steps
   std::vector<results::Disagreement> disagreements;  ///< each with the path of its case file
   std::string truth_contacts;                        ///< of contacts/SCENE.json; empty: no file
   std::vector<DetectorAnswer> detectors;

@@ -52,9 +52,10 @@ double frame_ms(const Run& run, const std::string& part) {
 }
 
 void measure_over(const Index& results, MeasuredGoal& goal) {
-  run_of(results, goal.scene, goal.over);  // who did not run is named
+  const Run& reference = run_of(results, goal.scene, goal.over);
   const Run& run = run_of(results, goal.scene, goal.detector);
-  const Question question = times_of(run).question;
+  times_of(run);  // or it says that nothing was timed
+  const Question question = *results::goal_question(run, reference);
   const auto by_reference = run.speedup.find(question);
   if (by_reference == run.speedup.end() || !by_reference->second.contains(goal.over))
     throw NotMeasured(goal.over + " does not answer the question " + name_of(question));

@@ -102,11 +102,15 @@ FinishedScene assemble(const SceneAnswers& scene, const SampleListener& tell) {
   }
 
   // Times, and speed-ups over the references in the same question.
-  const timing::TimedFrames frames = {judged.contact_frames, scene.cold_frames};
+  const timing::TimedFrames of_frames = {judged.contact_frames, scene.cold_frames};
+  const timing::TimedFrames of_steps = {
+      judged.contact_steps, timing::cold_steps(scene.cold_frames, judged.contact_steps.size())};
   for (const auto& [position, own] : samples) {
     results::Run& run = runs.at(position);
     run.per_frame.frame_ms = timing::frame_ms(own.front());
+    run.per_frame.frame_ms->resize(judged.contact_frames.size());  // no step begins at the last one
     for (const timing::QuestionSamples& question : own) {
+      const timing::TimedFrames& frames = is_of_steps(question.question) ? of_steps : of_frames;
       run.times.push_back(timing::summarize_times(question, frames));
       for (const auto& [other, theirs] : samples) {
         const std::string& name = names[other];

@@ -33,8 +33,8 @@ void record_scene(const WorkerState& worker) {
   recording.scene = scene.id;
   recording.bodies = scene.bodies;
   recording.time_step = scene.time_step;
-  // Of contact with itself nobody would ask a recording that does not say so.
-  if (any_self(scene.levels)) recording.levels = scene.levels;
+  // Of contact with itself, and within steps, nobody would ask a recording that does not say so.
+  if (any_self(scene.levels) || any_impact(scene.levels)) recording.levels = scene.levels;
   for (std::size_t f = 0; f < scene.frames; ++f)
     recording.frames.push_back(worker.judged.positions[f].nodes);
   write_recording(worker.job.recording_file, recording);
@@ -163,6 +163,7 @@ SceneAnswer judged_answer(const WorkerState& worker) {
   answer.scene = judge::scene_summary(judged, worker.separations);
   if (job.unjudged) answer.scene.unjudged = job.unjudged->why;
   answer.contact_frames = judged.contact_frames;
+  answer.contact_steps = judged.contact_steps();
   if (lists_contacts) answer.truth_contacts = judge::truth_contacts(judged);
   if (judged.pairs) add_cases("oracle", judged.pairs->disagreements);
   for (const WorkerEntry& entry : worker.entries) {

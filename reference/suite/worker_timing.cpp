@@ -66,9 +66,12 @@ TurnAnswer take_turn(WorkerState& worker, const Turn& turn, WorkerEntry& entry,
       request.threads = threads_of(worker, entry);
       // One from outside has its process for itself (scene_run.cpp), and may have more.
       request.children = worker.job.turns.size() == 1;
-      request.frames = worker.job.cold_frames;
+      const bool of_steps = is_of_steps(turn.question);
+      const std::size_t count = worker.scene.frames - (of_steps ? 1 : 0);
+      request.frames =
+          of_steps ? timing::cold_steps(worker.job.cold_frames, count) : worker.job.cold_frames;
       if (!turn.cold) {
-        request.frames.resize(worker.scene.frames);
+        request.frames.resize(count);
         std::iota(request.frames.begin(), request.frames.end(), std::size_t{0});
       }
       answer.samples = timing::time_pass(worker.scene, request, *entry.detector, worker.progress);

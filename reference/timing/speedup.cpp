@@ -100,6 +100,12 @@ results::Ratio ratio_of(const std::vector<Pass>& reference, const std::vector<Pa
 
 }  // namespace
 
+std::vector<std::size_t> cold_steps(std::vector<std::size_t> cold_frames, std::size_t steps) {
+  std::erase_if(cold_frames, [steps](std::size_t frame) { return frame >= steps; });
+  if (cold_frames.empty()) cold_frames.push_back(0);
+  return cold_frames;
+}
+
 std::vector<std::size_t> played_frames(std::size_t frames) {
   Places out;
   for (std::size_t f = frames > 1 ? 1 : 0; f < frames; ++f) out.push_back(f);

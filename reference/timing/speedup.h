@@ -35,11 +35,14 @@ struct QuestionSamples {
   std::vector<Pass> cold;  ///< over the cold frames alone; empty: another one's question
 };
 
-/// Which frames a scene's samples are of, and which of them have contact.
+/// Which frames, or steps, a question's samples are of, and which of them have contact.
 struct TimedFrames {
-  std::vector<bool> contact;      ///< by frame of the scene
-  std::vector<std::size_t> cold;  ///< frames of the scene, ascending
+  std::vector<bool> contact;      ///< by frame, or step, of the scene
+  std::vector<std::size_t> cold;  ///< of these, ascending
 };
+
+/// The cold frames of a scene at which a step begins: those of questions of steps.
+std::vector<std::size_t> cold_steps(std::vector<std::size_t> cold_frames, std::size_t steps);
 
 /// @pre every pass has all frames
 results::QuestionTimes summarize_times(const QuestionSamples& samples, const TimedFrames& frames);

@@ -1,6 +1,7 @@
 #include "reference/timing/timing.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "reference/process/float_environment.h"
 #include "reference/timing/cpu_time.h"
@@ -11,32 +12,85 @@ namespace {
 struct MappedFrame {
   std::vector<std::vector<Vec3>> nodes, vertices;
   Frame frame;
+  std::optional<std::size_t> mapped;  ///< the frame that `vertices` are of
 };
 
-void point_to_frame(const scene::Scene& scene, std::size_t index, MappedFrame& mapped) {
-  mapped.frame.index = index;
-  mapped.frame.time = scene.time_of(index);
-  mapped.nodes = scene.nodes_of_frame(index);  // nothing is mapped outside the clock
-  mapped.frame.bodies.clear();
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    mapped.frame.bodies.push_back({mapped.nodes[b], mapped.vertices[b]});
-}
+// A detector's input: a frame, or the step that begins there.
+class Input {
+ public:
+  Input(const scene::Scene& scene, bool step) : scene_(scene), step_(step) {
+    for (MappedFrame* end : {&start_, &end_})
+      for (const Body& body : scene.bodies)
+        end->vertices.emplace_back(body.shape->mesh.vertices.size(), Vec3::Zero());
+  }
+
+  // What a step ends with is what the next one starts with, and is mapped once.
+  void point_to(std::size_t index) {
+    if (!step_) {
+      point_to_frame(index, start_);
+      return;
+    }
+    if (end_.mapped == index) {
+      std::swap(start_, end_);
+      point_to_vertices(start_);
+    } else {
+      point_to_frame(index, start_);
+    }
+    point_to_frame(index + 1, end_);
+    joined_ = {start_.frame, end_.frame};
+  }
+
+  void map() {
+    for (MappedFrame* end : {&start_, &end_}) {
+      if ((end == &end_ && !step_) || end->mapped == end->frame.index) continue;
+      for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+        map_body(*scene_.bodies[b].shape, end->frame.bodies[b].nodes, end->vertices[b]);
+      if (step_) end->mapped = end->frame.index;
+    }
+  }
+
+  void give(Detector& detector) const {
+    if (step_) {
+      detector.update_step(joined_);
+    } else {
+      detector.update(start_.frame);
+    }
+  }
+
+ private:
+  void point_to_frame(std::size_t index, MappedFrame& mapped) const {
+    mapped.mapped.reset();
+    mapped.frame.index = index;
+    mapped.frame.time = scene_.time_of(index);
+    mapped.nodes = scene_.nodes_of_frame(index);  // nothing is mapped outside the clock
+    point_to_vertices(mapped);
+  }
+
+  void point_to_vertices(MappedFrame& mapped) const {
+    mapped.frame.bodies.clear();
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+      mapped.frame.bodies.push_back({mapped.nodes[b], mapped.vertices[b]});
+  }
+
+  const scene::Scene& scene_;
+  const bool step_;
+  MappedFrame start_, end_;
+  Step joined_;
+};
 
 // The phase is marked outside of what the clock takes, which the mark must not lengthen.
-PhaseSample time_frame(const scene::Scene& scene, Question question, Detector& detector,
-                       MappedFrame& mapped, ContactSet& contacts,
+PhaseSample time_frame(Question question, Detector& detector, Input& input, ContactSet& contacts,
                        process::ProgressWriter& progress) {
   PhaseSample sample;
   CallClock clock;
   if (detector.needs_vertices()) {
     clock.start();
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      map_body(*scene.bodies[b].shape, mapped.frame.bodies[b].nodes, mapped.vertices[b]);
+    input.map();
     sample.map = clock.stop();
   }
   progress.go_on(process::Phase::kUpdate);
   clock.start();
-  detector.update(mapped.frame);
+  input.give(detector);
   sample.update = clock.stop();
   const std::optional<double> update_reported = detector.reported_ns();
   progress.go_on(process::Phase::kQuery);
@@ -53,21 +107,19 @@ PhaseSample time_frame(const scene::Scene& scene, Question question, Detector& d
 
 Pass time_pass(const scene::Scene& scene, const PassRequest& request, Detector& detector,
                process::ProgressWriter& progress) {
-  MappedFrame mapped;
-  for (const Body& body : scene.bodies)
-    mapped.vertices.emplace_back(body.shape->mesh.vertices.size(), Vec3::Zero());
+  Input input(scene, is_of_steps(request.asked.question));
   ContactSet contacts;
   Pass out;
   CpuBook cpu(request.threads, request.children);
   const process::FloatEnvironmentGuard guard;
   for (const std::size_t index : request.frames) {
-    point_to_frame(scene, index, mapped);
+    input.point_to(index);
     progress.enter(request.position, index, process::Phase::kMap);
     contacts.clear();
     if (request.sweep != nullptr) request.sweep->run();
     cpu.before_call();
-    PhaseSample& sample = out.emplace_back(
-        time_frame(scene, request.asked.question, detector, mapped, contacts, progress));
+    PhaseSample& sample =
+        out.emplace_back(time_frame(request.asked.question, detector, input, contacts, progress));
     sample.cpu = cpu.after_call();
     guard.check_and_restore();  // flush-to-zero would make the next one faster
     contacts.canonicalize();

@@ -23,6 +23,8 @@ std::int64_t element_count(const BodyShape& shape, Element kind) {
       return shape.lattice ? static_cast<std::int64_t>(shape.lattice->cells.size()) : 0;
     case Element::kVertex:
       return static_cast<std::int64_t>(shape.given_vertex_count());
+    case Element::kEdge:  // fewer than corners of triangles
+      return static_cast<std::int64_t>(3 * shape.mesh.triangles.size());
     case Element::kNone:
       break;
   }

@@ -3,13 +3,14 @@
 namespace contactcheck::report {
 
 // Each is defined in the file of its table.
-extern const Section kSummary, kDrawn, kSpeedAgainstError, kLosses, kGoals, kHardCases,
-    kKnownDefects, kClaims, kDetectors;
+extern const Section kSummary, kDrawn, kBetweenFrames, kSpeedAgainstError, kLosses, kGoals,
+    kHardCases, kKnownDefects, kClaims, kDetectors;
 
 const std::vector<const Section*>& sections() {
   static constexpr Section kScenes = {"scenes", "", "", nullptr};
   static const std::vector<const Section*> all = {
-      &kSummary, &kDrawn,  &kSpeedAgainstError, &kLosses, &kGoals, &kHardCases, &kKnownDefects,
+      &kSummary, &kDrawn,  &kBetweenFrames, &kSpeedAgainstError,
+      &kLosses,  &kGoals,  &kHardCases,     &kKnownDefects,
       &kClaims,  &kScenes, &kDetectors};
   return all;
 }

@@ -53,7 +53,7 @@ double half_size(const Aabb& box) {
 
 // A contact without elements names bodies; what a vertex alone lies in has no place of its own.
 Json words_of(const NamedElements& named) {
-  constexpr const char* kWords[] = {"triangle", "cell", "vertex", "body"};
+  constexpr const char* kWords[] = {"triangle", "cell", "vertex", "edge", "body"};
   const bool bodies = named.first == Element::kNone;
   const auto word = [&](Element element) {
     return element == Element::kNone && !bodies ? "nothing"

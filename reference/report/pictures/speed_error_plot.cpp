@@ -28,7 +28,10 @@ constexpr QuestionShape kShapes[] = {
     {Question::kBody, "M-4.5-4.5h9v9h-9Z", "timed: which bodies touch"},
     {Question::kCells, "M0-5.5L5.5 4.5h-11Z", "timed: all pairs of cells"},
     {Question::kContacts, "M0-6L4 0L0 6L-4 0Z", "timed: contacts with depth and normal"},
-    {Question::kSelf, "M0 5.5L5.5-4.5h-11Z", "timed: contacts of bodies with themselves"}};
+    {Question::kSelf, "M0 5.5L5.5-4.5h-11Z", "timed: contacts of bodies with themselves"},
+    {Question::kImpacts, "M-5-2H-2V-5H2V-2H5V2H2V5H-2V2H-5Z", "timed: contacts between frames"},
+    {Question::kSelfImpacts, "M-5-4L-4-5L0-1L4-5L5-4L1 0L5 4L4 5L0 1L-4 5L-5 4L-1 0Z",
+     "timed: contacts of bodies with themselves between frames"}};
 
 static_assert(std::size(kShapes) == kQuestions.size(), "each question has a shape");
 

@@ -20,7 +20,11 @@ std::string wanted(const MeasuredGoal& goal) {
 std::size_t passes_of(const MeasuredGoal& goal, const results::Index& index) {
   const results::Run* run = index.ok_run(goal.scene, goal.detector);
   if (run == nullptr || run->times.empty()) return 0;
-  const results::Speedup* speedup = speedup_of(*run, run->times.front().question, goal.over);
+  const results::Run* reference = index.ok_run(goal.scene, goal.over);
+  const results::Speedup* speedup =
+      reference == nullptr
+          ? nullptr
+          : speedup_of(*run, *results::goal_question(*run, *reference), goal.over);
   return speedup == nullptr ? run->times.front().passes : speedup->passes;
 }
 

@@ -176,7 +176,7 @@ const results::PhaseTimes* phases_of(const results::QuestionTimes& times, bool c
 void TimedPart::add(const Run& run, const results::QuestionTimes& times) {
   passes.add(static_cast<double>(times.passes));
   timed_frames += times.timed_frames;
-  frames += run.frames;
+  frames += run.frames - (is_of_steps(times.question) ? 1 : 0);
 }
 
 std::string TimedPart::frames_text() const {

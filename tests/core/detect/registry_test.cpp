@@ -46,7 +46,7 @@ TEST(DetectorCatalog, HoldsTheFamilyWithoutAndWithTriangles) {
               ElementsAre("ffd-grid", "ffd-aabb", "ffd-aabb-sphere", "ffd-aabb-sphere2",
                           "ffd-aabb-sphereN", "ffd-grid+tri", "ffd-aabb+tri", "ffd-aabb-sphere+tri",
                           "ffd-aabb-sphere2+tri", "ffd-aabb-sphereN+tri"));
-  EXPECT_THAT(ids, IsSupersetOf({"spatial-hash", "aabb-tree", "sphere-tree"}));
+  EXPECT_THAT(ids, IsSupersetOf({"spatial-hash", "aabb-tree", "sphere-tree", "swept-aabb"}));
 }
 
 TEST(DetectorCatalog, DefaultBoundsArePaperAndSafeWithTriangles) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <map>
 #include <string>
 
@@ -75,6 +77,41 @@ std::uint64_t hash_of_contacts(const std::string& name, const Scene& scene) {
   return hash;
 }
 
+// Both questions of steps, and the first times to the bit, which chain_hash() leaves out.
+std::uint64_t hash_of_impacts(const std::string& name, const Scene& scene) {
+  const auto detector = test::prepared(name, scene);
+  std::uint64_t hash = 0;
+  Fnv1a times;
+  for (std::size_t f = 0; f + 1 < scene.frames.size(); ++f) {
+    const Step step = {scene.frames[f].frame(f), scene.frames[f + 1].frame(f + 1)};
+    detector->update_step(step);
+    ContactSet out;
+    for (const Question question : {Question::kImpacts, Question::kSelfImpacts})
+      detector->query(question, out);
+    out.canonicalize();
+    hash = chain_hash(hash, f, out);
+    for (const BodyImpact& impact : out.impacts)
+      times.value(std::bit_cast<std::uint64_t>(impact.time.value()));
+  }
+  times.value(hash);
+  return times.digest();
+}
+
+/// The detectors of core that answer questions of steps, or of frames.
+std::vector<std::string> detectors_of(bool steps) {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  std::vector<std::string> ids;
+  for (const DetectorInfo& info : catalog.all()) {
+    const auto detector = catalog.make(catalog.parse(info.id));
+    const std::vector<Question>& questions = detector->semantics().questions;
+    if (std::any_of(questions.begin(), questions.end(),
+                    [&](Question question) { return is_of_steps(question) == steps; }))
+      ids.push_back(info.id);
+  }
+  return ids;
+}
+
 TEST(SameBits, MappedVertices) { EXPECT_EQ(hash_of_vertices(fixed_scene()), 2314277800574072379u); }
 
 // Of every pair of triangles that meet, and of the cells that the paper's pipeline reports.
@@ -101,12 +138,21 @@ std::map<std::string, std::uint64_t> expected_hashes() {
 }
 
 TEST(SameBits, ContactsOfEveryDetectorOfCore) {
-  DetectorCatalog catalog;
-  register_core_detectors(catalog);
   const Scene scene = fixed_scene();
   std::map<std::string, std::uint64_t> found;
-  for (const DetectorInfo& info : catalog.all()) found[info.id] = hash_of_contacts(info.id, scene);
+  for (const std::string& id : detectors_of(false)) found[id] = hash_of_contacts(id, scene);
   EXPECT_EQ(found, expected_hashes());
+}
+
+TEST(SameBits, ContactsWithinStepsOfEveryDetectorOfCore) {
+  constexpr std::uint64_t kImpacts = 0;
+  const Scene scene = fixed_scene();
+  std::map<std::string, std::uint64_t> found;
+  for (const std::string& id : detectors_of(true)) found[id] = hash_of_impacts(id, scene);
+  EXPECT_EQ(found, (std::map<std::string, std::uint64_t>{
+                       {"ffd-lazy", kImpacts}, {"full-refit", kImpacts}, {"swept-aabb", kImpacts}}));
+  for (const char* name : {"ffd-lazy:bounds=nodes", "ffd-lazy:threads=3", "full-refit:threads=2"})
+    EXPECT_EQ(hash_of_impacts(name, scene), kImpacts) << name;
 }
 
 TEST(SameBits, VerticesMappedInSinglePrecision) {

@@ -16,12 +16,25 @@ TEST(ReferenceDetectors, AreListedWithOneLineEach) {
     EXPECT_THAT(info->summary, MatchesRegex("FCL[^\n]+")) << id;
     EXPECT_TRUE(info->absent_because.empty()) << id;
   }
+  for (const char* id : {"fcl-ccd", "embree-swept"}) {
+    const DetectorInfo* info = catalog.find(id);
+    ASSERT_NE(info, nullptr) << id;
+    EXPECT_THAT(info->summary, MatchesRegex("contact between frames: [^\n]+")) << id;
+    EXPECT_TRUE(info->absent_because.empty()) << id;
+  }
 }
 
 TEST(ReferenceDetectors, NamesParseToThemselves) {
   DetectorCatalog catalog;
   register_reference_detectors(catalog);
   for (const DetectorInfo& info : catalog.all()) EXPECT_EQ(catalog.parse(info.id).name, info.id);
+}
+
+// Rows of results are put together by it, and known defects name it.
+TEST(LibraryOf, DetectorsOfStepsIsTheirAdapters) {
+  EXPECT_EQ(library_of("fcl-ccd"), "fcl");
+  EXPECT_EQ(library_of("embree-swept"), "embree");
+  EXPECT_EQ(library_of("swept-aabb"), "contactcheck");
 }
 
 TEST(LibraryVersions, AreNumbersOfTheBuiltLibraries) {

@@ -275,7 +275,83 @@ TEST(QuestionOf, WithoutOneAboutTheLevelIsTheFirstThatMayNotEndEarly) {
     EXPECT_EQ(question_of(level, semantics), Question::kContacts);
   semantics.questions = {Question::kBody};
   for (const Level level : kLevels)
-    EXPECT_EQ(question_of(level, semantics), is_self(level) ? Question::kSelf : Question::kBody);
+    if (!is_self(level) && !is_impact(level)) {
+      EXPECT_EQ(question_of(level, semantics), Question::kBody);
+    }
+}
+
+TEST(QuestionOf, SelfContactAndStepsIsTheirsAlone) {
+  Semantics semantics;
+  semantics.questions = {Question::kImpacts, Question::kTriangles, Question::kBody};
+  for (const Level level : kLevels) {
+    const Question question = question_of(level, semantics);
+    if (is_self(level)) {
+      EXPECT_EQ(question, Question::kSelf) << name_of(level);
+    } else if (is_impact(level)) {
+      EXPECT_EQ(question, is_self_impact(level) ? Question::kSelfImpacts : Question::kImpacts)
+          << name_of(level);
+    } else {
+      EXPECT_FALSE(is_of_steps(question)) << name_of(level);
+    }
+  }
+}
+
+TEST(QuestionAbout, ListsOfStepsIsOneOfSteps) {
+  Semantics semantics;
+  semantics.questions = {Question::kTriangles, Question::kImpacts, Question::kSelfImpacts};
+  ContactSet set;
+  for_each_list(
+      [&](ContactList list, const auto&) {
+        EXPECT_EQ(is_of_steps(question_about(list, semantics)), is_of_step(list));
+      },
+      set);
+  EXPECT_EQ(question_about(ContactList::kImpactEdges, semantics), Question::kImpacts);
+  EXPECT_EQ(question_about(ContactList::kSelfImpactEdges, semantics), Question::kSelfImpacts);
+}
+
+std::vector<Question> questions_in(const std::vector<Level>& wanted,
+                                   std::vector<Question> questions) {
+  Semantics semantics;
+  semantics.levels = {kLevels.begin(), kLevels.end()};
+  semantics.questions = std::move(questions);
+  return semantics_in(wanted, semantics).questions;
+}
+
+TEST(SemanticsIn, AreAskedWhatTheSceneIsAbout) {
+  const std::vector<Question> all = {Question::kTriangles, Question::kBody, Question::kSelf,
+                                     Question::kImpacts, Question::kSelfImpacts};
+  EXPECT_THAT(questions_in({Level::kBody}, all),
+              ElementsAre(Question::kTriangles, Question::kBody));
+  EXPECT_THAT(questions_in({Level::kImpactVf}, all), ElementsAre(Question::kImpacts));
+  EXPECT_THAT(questions_in({Level::kImpactSelfEe}, all), ElementsAre(Question::kSelfImpacts));
+  EXPECT_THAT(questions_in({Level::kBody, Level::kImpact}, all),
+              ElementsAre(Question::kTriangles, Question::kBody, Question::kImpacts));
+  EXPECT_THAT(questions_in({Level::kSelf, Level::kImpactSelfVf}, all),
+              ElementsAre(Question::kSelf, Question::kSelfImpacts));
+}
+
+// One of steps cannot be asked about frames; one of frames is asked all the same.
+TEST(SemanticsIn, OfStepsAloneAreAskedNothingWhereNoStepIsJudged) {
+  EXPECT_THAT(questions_in({Level::kTriangle, Level::kSelf},
+                           {Question::kImpacts, Question::kSelfImpacts}),
+              IsEmpty());
+  EXPECT_THAT(questions_in({Level::kImpactSelfVf}, {Question::kImpacts}), IsEmpty());
+  EXPECT_THAT(questions_in({Level::kImpact}, {Question::kTriangles, Question::kBody}),
+              ElementsAre(Question::kTriangles, Question::kBody));
+  EXPECT_THAT(questions_in({Level::kSelf}, {Question::kTriangles, Question::kBody}),
+              ElementsAre(Question::kTriangles, Question::kBody));
+}
+
+TEST(SemanticsIn, ClaimTheLevelsOfWhatTheSceneIsAbout) {
+  Semantics semantics;
+  semantics.levels = {kLevels.begin(), kLevels.end()};
+  semantics.questions = {kQuestions.begin(), kQuestions.end()};
+  const auto of = [&](Level wanted) { return semantics_in({wanted}, semantics).levels; };
+  EXPECT_THAT(of(Level::kImpactEe), ElementsAre(Level::kImpactVf, Level::kImpactEe,
+                                                Level::kImpactTriangle, Level::kImpact));
+  EXPECT_THAT(of(Level::kImpactSelfVf), ElementsAre(Level::kImpactSelfVf, Level::kImpactSelfEe));
+  for (const Level level : of(Level::kCell))
+    EXPECT_FALSE(is_self(level) || is_impact(level)) << name_of(level);
 }
 
 TEST(JudgedLevels, HoldWhatIsInformativeToo) {

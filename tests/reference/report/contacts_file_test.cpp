@@ -53,9 +53,13 @@ TEST(ContactsFile, IsGivenBackAsItIs) {
 TEST(ContactsFile, WithEveryLevelIsRead) {
   for (const Level level : kLevels) {
     std::string missed = "0, 0, 1, 0";
-    if (level == Level::kBody || level == Level::kContainment || level == Level::kSelfBody)
+    if (level == Level::kBody || level == Level::kContainment || level == Level::kSelfBody ||
+        level == Level::kImpact)
       missed = "0, -1, 1, -1";
-    if (level == Level::kNear || level == Level::kSelfNear) missed = "0, 2, 1, 0";
+    if (level == Level::kNear || level == Level::kSelfNear || level == Level::kImpactVf ||
+        level == Level::kImpactSelfVf)
+      missed = "0, 2, 1, 0";
+    if (level == Level::kImpactEe || level == Level::kImpactSelfEe) missed = "0, 2, 1, 1";
     if (level == Level::kVertex) missed = "0, 2, 1, -1";
     if (level == Level::kBox) missed = "";  // these bodies have no cells
     EXPECT_EQ(fault(contacts("", differences(name_of(level), missed, ""))), "") << name_of(level);
@@ -84,6 +88,8 @@ TEST(ContactsFile, NamingWhatIsNotRecordedIsRefused) {
   EXPECT_THAT(fault(contacts("", differences("cell", "", "0, 0, 1, 0"))),
               HasSubstr("body 0 has no element 0"));
   EXPECT_THAT(fault(contacts("", differences("vertex", "0, 3, 1, -1", ""))),
+              HasSubstr("body 0 has no element 3"));
+  EXPECT_THAT(fault(contacts("", differences("impact-ee", "0, 3, 1, 0", ""))),
               HasSubstr("body 0 has no element 3"));
   EXPECT_THAT(fault(contacts("", differences("edge", "", ""))),
               HasSubstr("the level \"edge\" is not known"));

@@ -111,7 +111,12 @@ TEST_F(ViewBytes, SaysWhatThePairsOfEachLevelCount) {
       {"box", R"({"missed":["cell","cell"],"spurious":["cell","cell"]})"},
       {"vertex", R"({"missed":["vertex","nothing"],"spurious":["vertex","nothing"]})"},
       {"near", R"({"missed":["vertex","triangle"],"spurious":["vertex","triangle"]})"},
-      {"self-near", R"({"missed":["vertex","triangle"],"spurious":["vertex","triangle"]})"}};
+      {"self-near", R"({"missed":["vertex","triangle"],"spurious":["vertex","triangle"]})"},
+      {"impact-vf", R"({"missed":["vertex","triangle"],"spurious":["vertex","triangle"]})"},
+      {"impact-ee", R"({"missed":["edge","edge"],"spurious":["edge","edge"]})"},
+      {"impact", R"({"missed":["body","body"],"spurious":["body","body"]})"},
+      {"impact-self-vf", R"({"missed":["vertex","triangle"],"spurious":["vertex","triangle"]})"},
+      {"impact-self-ee", R"({"missed":["edge","edge"],"spurious":["edge","edge"]})"}};
   const ViewReader reader = view("boxes.ccr", "levels.json");
   for (const Json& detector : reader.scene(0).at("detectors")) {
     const auto found = others.find(detector.at("level"));

@@ -1,0 +1,161 @@
+#include "core/detect/lazy_steps.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/broad/body_pairs.h"
+#include "core/deform/mapping.h"
+#include "core/types/check.h"
+#include "core/types/mesh_topology.h"
+
+namespace contactcheck {
+
+LazySteps::LazySteps(const std::vector<Body>& bodies,
+                     const std::vector<std::shared_ptr<const LatticeTree>>& trees,
+                     const std::vector<bool>& refitted, const LazyKernels& kernels,
+                     ThreadTeam& team)
+    : kernels_(kernels), team_(team), tasks_(kernels, team), places_(bodies.size()) {
+  for (std::vector<LazyState>* states : {&starts_, &ends_})
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      LazyState& state = states->emplace_back();
+      state.shape = bodies[b].shape.get();
+      state.tree = trees[b].get();
+      state.from_vertices = refitted[b];
+    }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    starts_[b].end = &ends_[b];
+    const std::size_t count = bodies[b].shape->mesh.vertices.size();
+    places_[b].start.resize(count);
+    places_[b].end.resize(count);
+    places_[b].mapped_in.assign(count, 0);
+  }
+  contacts_.prepare(bodies);
+}
+
+void LazySteps::begin(std::size_t body, const Step& step) {
+  Places& places = places_[body];
+  const auto begin_one = [&](LazyState& state, const BodyState& of, std::vector<Vec3>& mapped,
+                             std::span<const Vec3>& vertices) {
+    CONTACTCHECK_INVARIANT(of.nodes.size() == state.shape->node_count(), "one position per node");
+    // Without a lattice the nodes are the vertices; given ones are used.
+    vertices = !state.shape->lattice ? of.nodes : of.vertices;
+    if (state.from_vertices && vertices.empty()) {
+      map_body(*state.shape, of.nodes, mapped);
+      vertices = mapped;
+    }
+    if (state.from_vertices) return begin_frame_by_vertices(state, vertices);
+    begin_frame_by_nodes(state, of.nodes);
+    vertices = mapped;
+  };
+  begin_one(starts_[body], step.start.bodies[body], places.start, places.at_start);
+  begin_one(ends_[body], step.end.bodies[body], places.end, places.at_end);
+}
+
+void LazySteps::update(const Step& step) {
+  CONTACTCHECK_INVARIANT(
+      step.start.bodies.size() == starts_.size() && step.end.bodies.size() == starts_.size(),
+      "one state per prepared body at both ends");
+  for (LazyScratch& scratch : team_.scratch()) {
+    scratch.arena.clear();
+    scratch.counters = {};
+  }
+  if (step_ == std::numeric_limits<std::uint32_t>::max()) {
+    for (Places& places : places_) std::fill(places.mapped_in.begin(), places.mapped_in.end(), 0);
+    step_ = 0;
+  }
+  ++step_;
+  std::vector<std::span<const Vec3>> start, end;
+  std::vector<Aabb> boxes;
+  for (std::size_t b = 0; b < starts_.size(); ++b) {
+    begin(b, step);
+    start.push_back(places_[b].at_start);
+    end.push_back(places_[b].at_end);
+    boxes.push_back(starts_[b].box);
+    boxes.back().extend(ends_[b].box);
+  }
+  contacts_.begin(std::move(start), std::move(end));
+  place_step(starts_, ends_);
+  pairs_.clear();
+  find_candidate_bodies(boxes, pairs_);
+  std::erase_if(pairs_,
+                [&](const BodyPair& pair) { return !may_meet(starts_[pair.a], starts_[pair.b]); });
+  bounded_.assign(starts_.size(), 0);
+}
+
+// Prepares a body for tests: computes all its bounds if it is refitted, else its cells.
+void LazySteps::bound(std::size_t body, LazyScratch& scratch) {
+  if (starts_[body].from_vertices) return kernels_.bound_all(starts_[body], scratch.arena);
+  find_cells(starts_[body]);
+  find_cells(ends_[body]);
+}
+
+void LazySteps::find_candidates(Question question) {
+  std::vector<std::size_t> to_bound;
+  const auto want = [&](std::size_t body) {
+    if (bounded_[body] == 0) to_bound.push_back(body);
+    bounded_[body] = 1;
+  };
+  const bool own = question == Question::kSelfImpacts;
+  for (std::size_t b = 0; own && b < starts_.size(); ++b) want(b);
+  for (const BodyPair& pair : pairs_)
+    for (const std::uint32_t body : pair.ids())
+      if (!own) want(body);
+  team_.for_each(to_bound.size(),
+                 [&](std::size_t i, LazyScratch& scratch) { bound(to_bound[i], scratch); });
+  candidates_.clear();
+  if (!own) return tasks_.run(starts_, pairs_, false, candidates_);
+  for (std::uint32_t b = 0; b < starts_.size(); ++b) {
+    refuse_many_adjacent_pairs(starts_[b].shape->linked());
+    kernels_.collide_self({{b, b}, starts_[b], starts_[b]}, false, team_.scratch()[0], candidates_);
+  }
+}
+
+// One by one: of the leaves' vertices, which kernels map for their boxes, few are needed.
+void LazySteps::map_triangle(std::uint32_t body, std::uint32_t triangle) {
+  const LazyState &start = starts_[body], &end = ends_[body];
+  if (start.from_vertices) return;
+  const BodyShape& shape = *start.shape;
+  Places& places = places_[body];
+  for (const std::uint32_t v : shape.mesh.triangles[triangle]) {
+    if (places.mapped_in[v] == step_) continue;
+    places.mapped_in[v] = step_;
+    const std::uint32_t cell = shape.embedding.home_cell[v];
+    places.start[v] =
+        map_point(corners_of(*shape.lattice, cell, start.nodes), shape.embedding.local[v]);
+    places.end[v] =
+        map_point(corners_of(*shape.lattice, cell, end.nodes), shape.embedding.local[v]);
+  }
+}
+
+void LazySteps::query(Question question, ContactSet& out) {
+  find_candidates(question);
+  for (const ElementPair& pair : candidates_) {
+    map_triangle(pair.body_a, pair.a);
+    map_triangle(pair.body_b, pair.b);
+    if (question == Question::kSelfImpacts) {
+      contacts_.add_own({pair.body_a, pair.a, pair.b}, out);
+    } else {
+      contacts_.add(pair, out);
+    }
+  }
+  contacts_.finish(out);
+}
+
+LazyCounters LazySteps::counters() const {
+  LazyCounters sum;
+  for (const LazyState& state : starts_) count_made(state, sum);
+  return sum;
+}
+
+std::size_t LazySteps::bytes() const {
+  std::size_t bytes = candidates_.capacity() * sizeof(ElementPair);
+  for (const std::vector<LazyState>* states : {&starts_, &ends_})
+    for (const LazyState& s : *states)
+      bytes += s.near_nodes.size() * sizeof(Float4) + s.cells.size() * sizeof(CellTerms) +
+               s.blocks.bytes() + s.leaves.bytes();
+  for (const Places& p : places_)
+    bytes += (p.start.size() + p.end.size()) * sizeof(Vec3) + p.mapped_in.size() * 4;
+  return bytes;
+}
+
+}  // namespace contactcheck

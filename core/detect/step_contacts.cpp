@@ -1,0 +1,240 @@
+#include "core/detect/step_contacts.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/narrow/impact.h"
+#include "core/narrow/triangle_triangle.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+/// The places of `items` in the order of what they belong to, as offsets and a list.
+void group(const std::vector<std::array<std::uint32_t, 3>>& items, std::size_t groups,
+           std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& members) {
+  begin.assign(groups + 1, 0);
+  const auto each = [&](auto&& visit) {
+    for (std::uint32_t t = 0; t < items.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t of = items[t][i];
+        // A triangle that names it twice belongs to it once.
+        const bool again = (i > 0 && of == items[t][0]) || (i > 1 && of == items[t][1]);
+        if (of != MeshEdges::kNone && !again) visit(of, t);
+      }
+  };
+  each([&](std::uint32_t of, std::uint32_t) { ++begin[of + 1]; });
+  for (std::size_t g = 0; g < groups; ++g) begin[g + 1] += begin[g];
+  members.resize(begin.back());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  each([&](std::uint32_t of, std::uint32_t t) { members[next[of]++] = t; });
+}
+
+/// Marks in `owned` the first triangle of each group, by the place of the element in it.
+void own(const std::vector<std::array<std::uint32_t, 3>>& items,
+         const std::vector<std::uint32_t>& begin, const std::vector<std::uint32_t>& members,
+         int shift, std::vector<std::uint8_t>& owned) {
+  for (std::uint32_t of = 0; of + 1 < begin.size(); ++of) {
+    if (begin[of] == begin[of + 1]) continue;
+    const std::uint32_t t = members[begin[of]];
+    const auto at = std::find(items[t].begin(), items[t].end(), of) - items[t].begin();
+    owned[t] |= static_cast<std::uint8_t>(1u << (at + shift));
+  }
+}
+
+Aabb box_of(const Vec3& p, const Vec3& q) { return {p.cwiseMin(q), p.cwiseMax(q)}; }
+
+Aabb joined(Aabb box, const Aabb& other) {
+  box.extend(other);
+  return box;
+}
+
+}  // namespace
+
+StepContacts::Elements StepContacts::elements_of(const std::shared_ptr<const BodyShape>& shape) {
+  Elements out;
+  out.shape = shape;
+  const std::vector<Triangle>& triangles = shape->mesh.triangles;
+  out.edges = mesh_edges(triangles);
+  group(triangles, shape->mesh.vertices.size(), out.vertex_begin, out.vertex_triangles);
+  group(out.edges.of_triangle, out.edges.edges.size(), out.edge_begin, out.edge_triangles);
+  out.owned.assign(triangles.size(), 0);
+  own(triangles, out.vertex_begin, out.vertex_triangles, 0, out.owned);
+  own(out.edges.of_triangle, out.edge_begin, out.edge_triangles, 3, out.owned);
+  out.linked.resize(shape->mesh.vertices.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) out.linked[triangles[t][i]] = shape->linked()[t][i];
+  return out;
+}
+
+void StepContacts::prepare(const std::vector<Body>& bodies) {
+  bodies_.clear();
+  std::map<const BodyShape*, std::shared_ptr<const Elements>> made;
+  for (const Body& body : bodies) {
+    std::shared_ptr<const Elements>& elements = made[body.shape.get()];
+    if (!elements) elements = std::make_shared<const Elements>(elements_of(body.shape));
+    bodies_.push_back(elements);
+  }
+}
+
+void StepContacts::begin(const Step& step) {
+  const auto vertices_of = [](const Frame& frame) {
+    std::vector<std::span<const Vec3>> out;
+    for (const BodyState& body : frame.bodies) out.push_back(body.vertices);
+    return out;
+  };
+  begin(vertices_of(step.start), vertices_of(step.end));
+}
+
+void StepContacts::begin(std::vector<std::span<const Vec3>> start,
+                         std::vector<std::span<const Vec3>> end) {
+  start_ = std::move(start);
+  end_ = std::move(end);
+  CONTACTCHECK_INVARIANT(start_.size() == bodies_.size() && end_.size() == bodies_.size(),
+                         "one state per prepared body at both ends");
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const std::size_t count = bodies_[b]->shape->mesh.vertices.size();
+    CONTACTCHECK_INVARIANT(start_[b].size() == count && end_[b].size() == count,
+                           "one position per vertex at both ends");
+  }
+  first_.clear();
+  tested_ = 0;
+}
+
+StepContacts::Moving StepContacts::moving(std::uint32_t body, std::uint32_t triangle) const {
+  const Triangle& t = bodies_[body]->shape->mesh.triangles[triangle];
+  Moving out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.start[i] = &start_[body][t[i]];
+    out.end[i] = &end_[body][t[i]];
+    out.corner_boxes[i] = box_of(*out.start[i], *out.end[i]);
+    out.box.extend(out.corner_boxes[i]);
+  }
+  return out;
+}
+
+// Calls `meet(vertex, time)` for the corners that a triangle owns and a face of `other` meets.
+template <typename Meet>
+void StepContacts::test_vertices(std::uint32_t body, std::uint32_t triangle, const Moving& of,
+                                 std::uint32_t other, std::uint32_t face, const Moving& with,
+                                 Meet&& meet) {
+  const Elements& elements = *bodies_[body];
+  const Triangle& corners = elements.shape->mesh.triangles[triangle];
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((elements.owned[triangle] >> i & 1u) == 0 || !of.corner_boxes[i].overlaps(with.box))
+      continue;
+    if (body == other && elements.shape->uses(face, corners[i])) continue;
+    ++tested_;
+    const Impact impact =
+        find_impact({ImpactKind::vertex_triangle,
+                     {*of.start[i], *with.start[0], *with.start[1], *with.start[2]},
+                     {*of.end[i], *with.end[0], *with.end[1], *with.end[2]}});
+    if (impact.contact) meet(corners[i], impact.earliest);
+  }
+}
+
+// Calls `meet(edge, edge, time)` for the sides that both triangles own and that meet.
+template <typename Meet>
+void StepContacts::test_edges(std::uint32_t body_a, std::uint32_t a, const Moving& p,
+                              std::uint32_t body_b, std::uint32_t b, const Moving& q, Meet&& meet) {
+  const Elements &of_a = *bodies_[body_a], &of_b = *bodies_[body_b];
+  const unsigned owned_a = of_a.owned[a] >> 3, owned_b = of_b.owned[b] >> 3;
+  if (owned_a == 0 || owned_b == 0) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((owned_a >> i & 1u) == 0) continue;
+    const std::size_t to = (i + 1) % 3;
+    const Aabb box = joined(p.corner_boxes[i], p.corner_boxes[to]);
+    if (!box.overlaps(q.box)) continue;
+    const std::uint32_t edge_a = of_a.edges.of_triangle[a][i];
+    for (std::size_t j = 0; j < 3; ++j) {
+      if ((owned_b >> j & 1u) == 0) continue;
+      const std::size_t end = (j + 1) % 3;
+      if (!box.overlaps(joined(q.corner_boxes[j], q.corner_boxes[end]))) continue;
+      const std::uint32_t edge_b = of_b.edges.of_triangle[b][j];
+      if (body_a == body_b) {
+        const auto same = [&](std::uint32_t v, std::uint32_t w) {
+          return of_a.linked[v] == of_a.linked[w];
+        };
+        const Edge &e = of_a.edges.edges[edge_a], &f = of_a.edges.edges[edge_b];
+        if (same(e[0], f[0]) || same(e[0], f[1]) || same(e[1], f[0]) || same(e[1], f[1])) continue;
+      }
+      ++tested_;
+      const Impact impact = find_impact({ImpactKind::edge_edge,
+                                         {*p.start[i], *p.start[to], *q.start[j], *q.start[end]},
+                                         {*p.end[i], *p.end[to], *q.end[j], *q.end[end]}});
+      if (impact.contact) meet(edge_a, edge_b, impact.earliest);
+    }
+  }
+}
+
+bool StepContacts::starts_in_contact(const Moving& p, const Moving& q) const {
+  const auto box = [](const Moving& t) {
+    return Aabb{t.start[0]->cwiseMin(*t.start[1]).cwiseMin(*t.start[2]),
+                t.start[0]->cwiseMax(*t.start[1]).cwiseMax(*t.start[2])};
+  };
+  return box(p).overlaps(box(q)) &&
+         triangles_intersect(TrianglePoints{*p.start[0], *p.start[1], *p.start[2]},
+                             TrianglePoints{*q.start[0], *q.start[1], *q.start[2]});
+}
+
+void StepContacts::note_time(BodyPair bodies, double time) {
+  const auto [place, is_new] = first_.emplace(bodies, time);
+  if (!is_new) place->second = std::min(place->second, time);
+}
+
+void StepContacts::add(const ElementPair& candidate, ContactSet& out) {
+  const auto [body_a, body_b, a, b] = candidate;
+  const Moving p = moving(body_a, a), q = moving(body_b, b);
+  if (!p.box.overlaps(q.box)) return;
+  const BodyPair bodies{body_a, body_b};
+  if (starts_in_contact(p, q)) {
+    out.impact_triangles.push_back(candidate);
+    note_time(bodies, 0.0);
+  }
+  const auto triangles_at = [](const std::vector<std::uint32_t>& begin,
+                               const std::vector<std::uint32_t>& members, std::uint32_t of) {
+    return std::span(members).subspan(begin[of], begin[of + 1] - begin[of]);
+  };
+  const Elements &of_a = *bodies_[body_a], &of_b = *bodies_[body_b];
+  test_vertices(body_a, a, p, body_b, b, q, [&](std::uint32_t vertex, double time) {
+    note_time(bodies, time);
+    out.impact_vertices.push_back({body_a, body_b, vertex, b});
+    for (const std::uint32_t t : triangles_at(of_a.vertex_begin, of_a.vertex_triangles, vertex))
+      out.impact_triangles.push_back({body_a, body_b, t, b});
+  });
+  test_vertices(body_b, b, q, body_a, a, p, [&](std::uint32_t vertex, double time) {
+    note_time(bodies, time);
+    out.impact_vertices.push_back({body_b, body_a, vertex, a});
+    for (const std::uint32_t t : triangles_at(of_b.vertex_begin, of_b.vertex_triangles, vertex))
+      out.impact_triangles.push_back({body_a, body_b, a, t});
+  });
+  test_edges(body_a, a, p, body_b, b, q, [&](std::uint32_t e, std::uint32_t f, double time) {
+    note_time(bodies, time);
+    out.impact_edges.push_back({body_a, body_b, e, f});
+    for (const std::uint32_t s : triangles_at(of_a.edge_begin, of_a.edge_triangles, e))
+      for (const std::uint32_t t : triangles_at(of_b.edge_begin, of_b.edge_triangles, f))
+        out.impact_triangles.push_back({body_a, body_b, s, t});
+  });
+}
+
+void StepContacts::add_own(const SelfPair& candidate, ContactSet& out) {
+  const auto [body, a, b] = candidate;
+  const Moving p = moving(body, a), q = moving(body, b);
+  if (!p.box.overlaps(q.box)) return;
+  test_vertices(body, a, p, body, b, q, [&](std::uint32_t vertex, double) {
+    out.self_impact_vertices.push_back({body, body, vertex, b});
+  });
+  test_vertices(body, b, q, body, a, p, [&](std::uint32_t vertex, double) {
+    out.self_impact_vertices.push_back({body, body, vertex, a});
+  });
+  test_edges(body, a, p, body, b, q, [&](std::uint32_t e, std::uint32_t f, double) {
+    out.self_impact_edges.push_back({body, e, f});
+  });
+}
+
+void StepContacts::finish(ContactSet& out) {
+  for (const auto& [bodies, time] : first_) out.impacts.push_back({bodies, time});
+  first_.clear();
+}
+
+}  // namespace contactcheck

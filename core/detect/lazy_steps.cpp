@@ -73,8 +73,10 @@ void LazySteps::update(const Step& step) {
     boxes.push_back(starts_[b].box);
     boxes.back().extend(ends_[b].box);
   }
-  contacts_.begin(std::move(start), std::move(end));
   place_step(starts_, ends_);
+  std::vector<Vec3> velocities;
+  for (const LazyState& state : starts_) velocities.push_back(state.velocity);
+  contacts_.begin(std::move(start), std::move(end), std::move(velocities));
   pairs_.clear();
   find_candidate_bodies(boxes, pairs_);
   std::erase_if(pairs_,

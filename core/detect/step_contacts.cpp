@@ -1,10 +1,11 @@
 #include "core/detect/step_contacts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/narrow/impact.h"
-#include "core/narrow/triangle_triangle.h"
 #include "core/types/check.h"
 
 namespace contactcheck {
@@ -42,7 +43,11 @@ void own(const std::vector<std::array<std::uint32_t, 3>>& items,
   }
 }
 
-Aabb box_of(const Vec3& p, const Vec3& q) { return {p.cwiseMin(q), p.cwiseMax(q)}; }
+Aabb bounding_box(std::span<const Vec3> points) {
+  Aabb box;
+  for (const Vec3& point : points) box.extend(point);
+  return box;
+}
 
 Aabb joined(Aabb box, const Aabb& other) {
   box.extend(other);
@@ -83,14 +88,20 @@ void StepContacts::begin(const Step& step) {
     for (const BodyState& body : frame.bodies) out.push_back(body.vertices);
     return out;
   };
-  begin(vertices_of(step.start), vertices_of(step.end));
+  std::vector<std::span<const Vec3>> start = vertices_of(step.start), end = vertices_of(step.end);
+  std::vector<Vec3> velocities;
+  for (std::size_t b = 0; b < start.size() && b < end.size(); ++b)
+    velocities.push_back(bounding_box(end[b]).center() - bounding_box(start[b]).center());
+  begin(std::move(start), std::move(end), std::move(velocities));
 }
 
 void StepContacts::begin(std::vector<std::span<const Vec3>> start,
-                         std::vector<std::span<const Vec3>> end) {
+                         std::vector<std::span<const Vec3>> end, std::vector<Vec3> velocities) {
   start_ = std::move(start);
   end_ = std::move(end);
-  CONTACTCHECK_INVARIANT(start_.size() == bodies_.size() && end_.size() == bodies_.size(),
+  velocities_ = std::move(velocities);
+  CONTACTCHECK_INVARIANT(start_.size() == bodies_.size() && end_.size() == bodies_.size() &&
+                             velocities_.size() == bodies_.size(),
                          "one state per prepared body at both ends");
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const std::size_t count = bodies_[b]->shape->mesh.vertices.size();
@@ -99,18 +110,88 @@ void StepContacts::begin(std::vector<std::span<const Vec3>> start,
   }
   first_.clear();
   tested_ = 0;
+  entered_ = false;
 }
 
+// Candidates come in runs of the same two bodies.
+void StepContacts::enter(std::uint32_t body_a, std::uint32_t body_b, ContactSet& out) {
+  if (entered_ && pair_[0] == body_a && pair_[1] == body_b) return;
+  flush(out);
+  entered_ = true;
+  pair_ = {body_a, body_b};
+  frame_ = 0.5 * velocities_[body_a] + 0.5 * velocities_[body_b];
+  // A difference from a coordinate then never overflows.
+  constexpr double kFastest = 1e150;
+  if (!frame_.allFinite() || frame_.cwiseAbs().maxCoeff() > kFastest) frame_ = Vec3::Zero();
+  at_start_.begin(*bodies_[body_a]->shape, start_[body_a], *bodies_[body_b]->shape, start_[body_b]);
+}
+
+void StepContacts::flush(ContactSet& out) {
+  if (!entered_) return;
+  at_start_.flush([&](std::uint32_t a, std::uint32_t b) {
+    out.impact_triangles.push_back({pair_[0], pair_[1], a, b});
+    note_time({pair_[0], pair_[1]}, 0.0);
+  });
+}
+
+// Where two points meet at t they do so in the frame that moves by t w, for any w. There a corner's
+// path lies in the box of its start and its end - w. The difference rounds by at most 2^-53 of
+// itself and is moved outward by twice that, also where it is subnormal.
 StepContacts::Moving StepContacts::moving(std::uint32_t body, std::uint32_t triangle) const {
+  constexpr double kTwoUnits = 0x1p-52, kSmallest = std::numeric_limits<double>::denorm_min();
   const Triangle& t = bodies_[body]->shape->mesh.triangles[triangle];
   Moving out;
   for (std::size_t i = 0; i < 3; ++i) {
     out.start[i] = &start_[body][t[i]];
     out.end[i] = &end_[body][t[i]];
-    out.corner_boxes[i] = box_of(*out.start[i], *out.end[i]);
+    const Vec3 end = out.end_in_frame[i] = *out.end[i] - frame_;
+    const Vec3 outward = (kTwoUnits * end.cwiseAbs()).array() + kSmallest;
+    out.corner_boxes[i] = {out.start[i]->cwiseMin(end - outward),
+                           out.start[i]->cwiseMax(end + outward)};
     out.box.extend(out.corner_boxes[i]);
   }
   return out;
+}
+
+// True if a plane across the normal of one of the triangles at the start is seen to separate all
+// that they take up over the step, in the moving frame. Along any n, exact or not, the twelve
+// places are compared as n.d with d = x - o, o a corner. u = 2^-53; D is the largest |d| along an
+// axis, E the largest |coordinate| of an end in the frame, N the sum of |n|. d rounds by u D, and
+// x, at an end, by u E; the products and sums of n.d by 3 u N D; the comparison by 2 u N D. In all
+// less than 6 u N D + u N E on either side; 16 u N (D + E) is taken for both, and 2^-1000 for
+// underflow.
+bool StepContacts::separated(const Moving& p, const Moving& q) const {
+  const Vec3& origin = *q.start[0];
+  std::array<Vec3, 6> of_p, of_q;
+  double farthest = 0.0, largest = 0.0;
+  const auto relative = [&](const Moving& of, std::array<Vec3, 6>& out) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      out[i] = *of.start[i] - origin;
+      out[3 + i] = of.end_in_frame[i] - origin;
+      farthest =
+          std::max({farthest, out[i].cwiseAbs().maxCoeff(), out[3 + i].cwiseAbs().maxCoeff()});
+      largest = std::max(largest, of.end_in_frame[i].cwiseAbs().maxCoeff());
+    }
+  };
+  relative(p, of_p);
+  relative(q, of_q);
+  for (const auto* corners : {&of_q, &of_p}) {
+    const Vec3 normal = ((*corners)[1] - (*corners)[0]).cross((*corners)[2] - (*corners)[0]);
+    const double slack = 16 * 0x1p-53 * normal.cwiseAbs().sum() * (farthest + largest) + 0x1p-1000;
+    double low_p = normal.dot(of_p[0]), high_p = low_p, low_q = normal.dot(of_q[0]), high_q = low_q;
+    for (std::size_t i = 1; i < 6; ++i) {
+      const double at_p = normal.dot(of_p[i]), at_q = normal.dot(of_q[i]);
+      low_p = std::min(low_p, at_p);
+      high_p = std::max(high_p, at_p);
+      low_q = std::min(low_q, at_q);
+      high_q = std::max(high_q, at_q);
+    }
+    // False where something overflowed to infinity or NaN.
+    if (low_p - high_q > slack || low_q - high_p > slack)
+      return std::isfinite(slack) && std::isfinite(low_p) && std::isfinite(high_p) &&
+             std::isfinite(low_q) && std::isfinite(high_q);
+  }
+  return false;
 }
 
 // Calls `meet(vertex, time)` for the corners that a triangle owns and a face of `other` meets.
@@ -167,16 +248,6 @@ void StepContacts::test_edges(std::uint32_t body_a, std::uint32_t a, const Movin
   }
 }
 
-bool StepContacts::starts_in_contact(const Moving& p, const Moving& q) const {
-  const auto box = [](const Moving& t) {
-    return Aabb{t.start[0]->cwiseMin(*t.start[1]).cwiseMin(*t.start[2]),
-                t.start[0]->cwiseMax(*t.start[1]).cwiseMax(*t.start[2])};
-  };
-  return box(p).overlaps(box(q)) &&
-         triangles_intersect(TrianglePoints{*p.start[0], *p.start[1], *p.start[2]},
-                             TrianglePoints{*q.start[0], *q.start[1], *q.start[2]});
-}
-
 void StepContacts::note_time(BodyPair bodies, double time) {
   const auto [place, is_new] = first_.emplace(bodies, time);
   if (!is_new) place->second = std::min(place->second, time);
@@ -184,13 +255,14 @@ void StepContacts::note_time(BodyPair bodies, double time) {
 
 void StepContacts::add(const ElementPair& candidate, ContactSet& out) {
   const auto [body_a, body_b, a, b] = candidate;
+  enter(body_a, body_b, out);
   const Moving p = moving(body_a, a), q = moving(body_b, b);
-  if (!p.box.overlaps(q.box)) return;
+  if (!p.box.overlaps(q.box) || separated(p, q)) return;
+  at_start_.add({a, b, {}}, [&](std::uint32_t i, std::uint32_t j) {
+    out.impact_triangles.push_back({pair_[0], pair_[1], i, j});
+    note_time({pair_[0], pair_[1]}, 0.0);
+  });
   const BodyPair bodies{body_a, body_b};
-  if (starts_in_contact(p, q)) {
-    out.impact_triangles.push_back(candidate);
-    note_time(bodies, 0.0);
-  }
   const auto triangles_at = [](const std::vector<std::uint32_t>& begin,
                                const std::vector<std::uint32_t>& members, std::uint32_t of) {
     return std::span(members).subspan(begin[of], begin[of + 1] - begin[of]);
@@ -219,8 +291,9 @@ void StepContacts::add(const ElementPair& candidate, ContactSet& out) {
 
 void StepContacts::add_own(const SelfPair& candidate, ContactSet& out) {
   const auto [body, a, b] = candidate;
+  enter(body, body, out);
   const Moving p = moving(body, a), q = moving(body, b);
-  if (!p.box.overlaps(q.box)) return;
+  if (!p.box.overlaps(q.box) || separated(p, q)) return;
   test_vertices(body, a, p, body, b, q, [&](std::uint32_t vertex, double) {
     out.self_impact_vertices.push_back({body, body, vertex, b});
   });
@@ -233,6 +306,8 @@ void StepContacts::add_own(const SelfPair& candidate, ContactSet& out) {
 }
 
 void StepContacts::finish(ContactSet& out) {
+  flush(out);
+  entered_ = false;
   for (const auto& [bodies, time] : first_) out.impacts.push_back({bodies, time});
   first_.clear();
 }

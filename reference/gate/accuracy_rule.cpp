@@ -13,11 +13,12 @@ struct Reading {
   std::optional<double> value;
   std::optional<Level> level;  ///< of a measure that has levels
   std::string why_not;         ///< a sentence where there is no value
+  bool fails = false;          ///< that there is none breaks the rule
 };
 
 Reading without(const std::string& why) { return {std::nullopt, std::nullopt, why}; }
 
-Reading number(double value) { return {value, std::nullopt, ""}; }
+Reading number(double value) { return {value, std::nullopt, "", false}; }
 
 Reading number_or(const std::optional<double>& value, const std::string& why_none) {
   return value ? number(*value) : without(why_none);
@@ -57,9 +58,22 @@ Reading read_level(const Rule& rule, const results::Run& row) {
 
 Reading read_geometry(const Rule& rule, const results::Run& row) {
   std::optional<double> value;
-  for (const auto& [name, error] : results::errors_of(row.geometry))
+  for (const auto& [name, error] : results::errors_of(row))
     if (rule.measure->name == name) value = error;
   return number_or(value, std::string(rule.measure->name) + " was not measured in this row");
+}
+
+// A detector that finds contact within steps and tells no time would pass every limit on times.
+Reading read_impacts(const Rule& rule, const results::Run& row) {
+  Reading out = read_geometry(rule, row);
+  const auto found = row.levels.find(Level::kImpact);
+  const std::string name = rule.measure->name;
+  if (!out.value && found != row.levels.end() && found->second.hit > 0 &&
+      (name == "early_max" || name == "late_max")) {
+    out.fails = true;
+    out.why_not = "it finds bodies that meet within steps and says of none when";
+  }
+  return out;
 }
 
 Reading read_stages(const Rule& rule, const results::Run& row) {
@@ -94,6 +108,8 @@ Reading read_measure(const Rule& rule, const results::Results& results, const re
       return read_level(rule, row);
     case MeasureKind::kGeometry:
       return read_geometry(rule, row);
+    case MeasureKind::kImpacts:
+      return read_impacts(rule, row);
     case MeasureKind::kStages:
       return read_stages(rule, row);
     case MeasureKind::kDefects:
@@ -214,7 +230,11 @@ Check judge_accuracy(const Rule& rule, const results::Index& now, const results:
                                         : hash_against_baseline(rule, now, *before, row);
   const Reading reading = read_measure(rule, now.results(), row);
   if (rule.bound == Bound::kUnchanged) return number_against_baseline(rule, *before, row, reading);
-  if (!reading.value) return cannot_judge(rule, reading.why_not);
+  if (!reading.value) {
+    Check out = cannot_judge(rule, reading.why_not);
+    if (reading.fails) out.verdict = Verdict::kFail;
+    return out;
+  }
   return checked(rule, within(rule, *reading.value), measured_text(rule, reading));
 }
 

@@ -14,6 +14,7 @@ namespace contactcheck::gate {
 enum class MeasureKind {
   kLevel,     ///< runs[].levels.LEVEL
   kGeometry,  ///< runs[].geometry
+  kImpacts,   ///< runs[].impacts
   kStages,    ///< runs[].stages[].missed
   kMemory,    ///< runs[].memory_bytes
   kDefects,   ///< known_defects: unlisted and not shown ones of this row

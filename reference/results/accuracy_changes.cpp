@@ -77,8 +77,8 @@ RowChange row_change(const results::Run& before, const results::Run& after) {
       compare_count(shown + " spurious", was.spurious, is.spurious, is.informative);
     }
 
-    const results::NamedErrors errors_before = results::errors_of(before.geometry),
-                               errors_after = results::errors_of(after.geometry);
+    const results::NamedErrors errors_before = results::errors_of(before),
+                               errors_after = results::errors_of(after);
     for (std::size_t i = 0; i < errors_after.size(); ++i) {
       const auto& [key, is] = errors_after[i];
       const std::optional<double> was = errors_before[i].second;

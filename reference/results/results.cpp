@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <set>
 
 #include "core/types/check.h"
@@ -108,18 +109,29 @@ const std::vector<const Run*>& Index::runs_of(const std::string& scene) const {
   return it == runs_.end() ? none : it->second;
 }
 
-NamedErrors errors_of(const Geometry& g) {
+NamedErrors errors_of(const Run& run) {
+  const Geometry& g = run.geometry;
+  const Impacts i = run.impacts.value_or(Impacts{});
+  std::optional<double> tunnelled;
+  if (run.impacts)
+    tunnelled = std::accumulate(
+        i.tunnelled.begin(), i.tunnelled.end(), 0.0,
+        [](double sum, std::uint64_t pairs) { return sum + static_cast<double>(pairs); });
   return {{"covered_length_fraction", g.covered_length_fraction},
           {"depth_error_max", g.depth.max},
           {"depth_error_mean", g.depth.mean},
           {"depth_error_p95", g.depth.p95},
+          {"early_max", i.early_max},
           {"hover_gap_max", g.hover_gap_max},
           {"late_frames", g.late_frames},
+          {"late_max", i.late_max},
           {"missed_length", g.missed_length},
+          {"new_missed", i.new_missed},
           {"normal_error_deg_max", g.normal_deg.max},
           {"normal_error_deg_mean", g.normal_deg.mean},
           {"normal_error_deg_p95", g.normal_deg.p95},
-          {"spurious_distance_max", g.spurious_distance_max}};
+          {"spurious_distance_max", g.spurious_distance_max},
+          {"tunnelled", tunnelled}};
 }
 
 }  // namespace contactcheck::results

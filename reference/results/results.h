@@ -90,8 +90,6 @@ struct Geometry {
 };
 
 using NamedErrors = std::vector<std::pair<std::string, std::optional<double>>>;
-/// The errors of a row with their names in the file, sorted; the same names for every row.
-NamedErrors errors_of(const Geometry& geometry);
 
 struct Stage {
   std::string name, unit;
@@ -224,6 +222,10 @@ struct Run {
 
   bool ok() const { return status == Status::kOk; }
 };
+
+/// The errors of a row's geometry and impacts with their names in the file, sorted; the same names
+/// for every row.
+NamedErrors errors_of(const Run& run);
 
 struct SceneBody {
   std::string name, source, notes;

@@ -154,10 +154,15 @@ std::vector<Level> levels_for(const std::string& level_name, bool self) {
 }
 
 bool can_be_reduced(const std::string& level) {
-  return level != name_of(Level::kVertex) && level != name_of(Level::kContainment);
+  const std::optional<Level> known = level_from_name(level);
+  return known != Level::kVertex && known != Level::kContainment && !(known && is_impact(*known));
 }
 
 void require_reducible(const std::string& level) {
+  if (const std::optional<Level> known = level_from_name(level); known && is_impact(*known))
+    throw InputError("a disagreement at level " + level +
+                     " cannot be reduced: it is of a step between two frames, and reduce has one "
+                     "frame; export --queries writes the step's elements");
   if (!can_be_reduced(level))
     throw InputError("a disagreement at level " + level +
                      " cannot be reduced: inside is defined for closed surfaces, and a part of "

@@ -36,7 +36,14 @@ export const kGlossary: Word[] = [
     word: "level",
     meaning:
       "What is counted: pairs of bodies (body), of lattice cells (cell), of mapped cell boxes (box), of triangles (triangle), " +
-      "vertices inside another body (vertex), or vertices nearer than a margin (near). A detector is held to the levels that it claims, and to no others.",
+      "vertices inside another body (vertex), or vertices nearer than a margin (near); between frames, what meets while all vertices move on straight lines from one frame to the next (impact and the levels that begin so). " +
+      "A detector is held to the levels that it claims, and to no others.",
+  },
+  {
+    id: "tunnelled",
+    word: "tunnelled",
+    meaning:
+      "Two bodies that meet between two frames, touch in neither, and are not reported: they pass through one another.",
   },
   {
     id: "hover",

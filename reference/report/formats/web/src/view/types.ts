@@ -35,7 +35,7 @@ export interface Differences {
   spurious: Listed;
 }
 
-export type Element = "triangle" | "cell" | "vertex" | "body" | "nothing";
+export type Element = "triangle" | "cell" | "vertex" | "edge" | "body" | "nothing";
 /** What the numbers of a pair count; "nothing" has no place on the screen. */
 export type Elements = [Element, Element];
 

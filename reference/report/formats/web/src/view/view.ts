@@ -311,7 +311,8 @@ class SceneViewer implements View {
     if (this.chosen) {
       const [one, other] = pairWords(this.chosen, (body) => header.bodies[body].name);
       const {kind, level} = this.chosen;
-      const cannotBeReduced = level === "vertex" || level === "containment";
+      const cannotBeReduced =
+        level === "vertex" || level === "containment" || level.startsWith("impact");
       const command = !cannotBeReduced && this.reduce(this.detector, `${header.id}.ccr@${frame}`);
       return [
         `${this.detector}, ${place} ${frame}, ${kind}: `,

@@ -1,7 +1,6 @@
 #include "core/detect/step_contacts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -175,6 +174,10 @@ bool StepContacts::separated(const Moving& p, const Moving& q) const {
   };
   relative(p, of_p);
   relative(q, of_q);
+  // Products of three lengths must not overflow: a corner at NaN would be passed over. Below this
+  // nothing does. False for NaN and infinity, too.
+  constexpr double kLargest = 0x1p300;
+  if (!(farthest <= kLargest) || !(largest <= kLargest)) return false;
   for (const auto* corners : {&of_q, &of_p}) {
     const Vec3 normal = ((*corners)[1] - (*corners)[0]).cross((*corners)[2] - (*corners)[0]);
     const double slack = 16 * 0x1p-53 * normal.cwiseAbs().sum() * (farthest + largest) + 0x1p-1000;
@@ -186,10 +189,7 @@ bool StepContacts::separated(const Moving& p, const Moving& q) const {
       low_q = std::min(low_q, at_q);
       high_q = std::max(high_q, at_q);
     }
-    // False where something overflowed to infinity or NaN.
-    if (low_p - high_q > slack || low_q - high_p > slack)
-      return std::isfinite(slack) && std::isfinite(low_p) && std::isfinite(high_p) &&
-             std::isfinite(low_q) && std::isfinite(high_q);
+    if (low_p - high_q > slack || low_q - high_p > slack) return true;
   }
   return false;
 }

@@ -156,12 +156,16 @@ std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const Cont
   hash_ids(hash, contacts.self);
   hash_ids(hash, contacts.self_cells);
   for (const std::uint32_t body : contacts.self_bodies) hash.value(body);
-  hash_ids(hash, contacts.impacts);
-  hash_ids(hash, contacts.impact_triangles);
-  hash_ids(hash, contacts.impact_vertices);
-  hash_ids(hash, contacts.impact_edges);
-  hash_ids(hash, contacts.self_impact_vertices);
-  hash_ids(hash, contacts.self_impact_edges);
+  // Lists that came later are told apart by their place.
+  for_each_list(
+      [&](ContactList list, const auto& records) {
+        if constexpr (requires { records.front().ids(); }) {
+          if (!is_of_step(list) || records.empty()) return;
+          hash.value(static_cast<std::uint64_t>(list));
+          hash_counted(hash, records);
+        }
+      },
+      contacts);
   return hash.digest();
 }
 

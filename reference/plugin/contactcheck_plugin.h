@@ -393,9 +393,10 @@ typedef struct contactcheck_plugin {
                     char* message);
   /* Of what create() made, exactly once; not called where that failed or gave NULL. */
   void (*destroy)(void* detector);
-  /* These four are about frames; all are NULL in a detector of moving elements alone (version 4).
-   * declare() says what is claimed; asked after create(), and again after prepare(): a scale, and a
-   * margin with it, may be taken from the bodies. Anything else that has changed is an error. */
+  /* These four are about frames; all are NULL in a detector of moving elements alone (version 4),
+   * but for prepare, where it has step(). declare() says what is claimed; asked after create(), and
+   * again after prepare(): a scale, and a margin with it, may be taken from the bodies. Anything
+   * else that has changed is an error. */
   int32_t (*declare)(void* detector, contactcheck_semantics* semantics, char* message);
   int32_t (*prepare)(void* detector, const contactcheck_body* bodies, uint32_t count,
                      char* message);
@@ -424,7 +425,8 @@ typedef struct contactcheck_plugin {
   int32_t (*impact)(void* detector, const contactcheck_impact_query* query,
                     contactcheck_impact* impact, char* message);
   /* Reports the contacts of prepared bodies within a step, at the levels that were declared; steps
-   * come in any order. This host does not call it yet: it judges scenes at frames. */
+   * come in any order. A pair within a body names it twice. Items whose impact says no contact are
+   * passed over; the earliest time of a pair of bodies, or of their elements, counts. */
   int32_t (*step)(void* detector, const contactcheck_step* step,
                   const contactcheck_step_answer* answer, char* message);
 } contactcheck_plugin;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <type_traits>
 
 #include "core/types/check.h"
 #include "reference/results/results_json.h"
@@ -17,19 +19,19 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kLongestText = 200;  // bytes of a summary or a sentence
 constexpr std::size_t kMostOptions = 64, kMostChoices = 64;
 
-template <typename Value, std::size_t N>
-Value named_value(const text::JsonField& field, const Value (&all)[N]) {
+template <typename Values>
+auto named_value(const text::JsonField& field, const Values& all) {
   std::vector<std::string> names;
-  for (const Value value : all) names.emplace_back(name_of(value));
+  for (const auto value : all) names.emplace_back(name_of(value));
   const std::string name = field.one_of(names);
-  for (const Value value : all)
+  for (const auto value : all)
     if (name == name_of(value)) return value;
   field.fail("has no value");
 }
 
-template <typename Value, std::size_t N>
-std::vector<Value> named_values(const text::JsonField& field, const Value (&all)[N]) {
-  std::vector<Value> out;
+template <typename Values>
+auto named_values(const text::JsonField& field, const Values& all) {
+  std::vector<std::decay_t<decltype(*std::begin(all))>> out;
   for (const text::JsonField& item : field.items()) out.push_back(named_value(item, all));
   return out;
 }
@@ -106,10 +108,9 @@ Json impacts_json(const ImpactClaims& claims) {
 
 Semantics read_semantics(const text::JsonField& field) {
   Semantics s;
-  s.levels = named_values(field.at("levels"), kHeaderLevels);
-  s.questions = named_values(field.at("questions"), kHeaderQuestions);
-  if (field.has("informative"))
-    s.informative = named_values(field.at("informative"), kHeaderLevels);
+  s.levels = named_values(field.at("levels"), kLevels);
+  s.questions = named_values(field.at("questions"), kQuestions);
+  if (field.has("informative")) s.informative = named_values(field.at("informative"), kLevels);
   if (field.has("body")) s.solid = field.at("body").one_of({"surface", "solid"}) == "solid";
   if (field.has("touching")) s.closed = field.at("touching").one_of({"closed", "open"}) == "closed";
   if (field.has("exact")) s.exact = field.at("exact").boolean();
@@ -182,10 +183,6 @@ std::string semantics_fault(const Semantics& s) {
     return "it names a level twice (one that is claimed is not informative beside)";
   if (s.exact && s.levels.empty()) return "it is exact at no level";
 
-  if (std::any_of(levels.begin(), levels.end(), is_impact) ||
-      std::any_of(s.questions.begin(), s.questions.end(), is_of_steps))
-    return "it claims contact within steps, which detectors from outside are not asked about yet";
-
   // What is judged must have been asked for.
   if (s.questions.empty()) return "it answers no question";
   if (std::set<Question>(s.questions.begin(), s.questions.end()).size() != s.questions.size())
@@ -197,6 +194,14 @@ std::string semantics_fault(const Semantics& s) {
   if (std::any_of(levels.begin(), levels.end(), is_self) != s.answers(Question::kSelf))
     return "the levels self, self-vertex, self-edge, self-body, self-cell, self-near and the "
            "question self go together, and it declares one of them";
+  const auto between = [](Level level) { return is_impact(level) && !is_self_impact(level); };
+  if (std::any_of(levels.begin(), levels.end(), between) != s.answers(Question::kImpacts))
+    return "the levels impact-vf, impact-ee, impact-triangle, impact and the question impacts go "
+           "together, and it declares one of them";
+  if (std::any_of(levels.begin(), levels.end(), is_self_impact) !=
+      s.answers(Question::kSelfImpacts))
+    return "the levels impact-self-vf, impact-self-ee and the question self-impacts go together, "
+           "and it declares one of them";
   if (s.answers(Question::kContacts) != (s.depth != DepthKind::kNone))
     return "the question contacts and a kind of depth go together, and it declares one of them";
 

@@ -30,6 +30,10 @@ static_assert(std::all_of(kLevels.begin(), kLevels.end(), [](Level level) {
 static_assert(std::all_of(kQuestions.begin(), kQuestions.end(), [](Question question) {
   return is_of_steps(question) != (std::ranges::count(kHeaderQuestions, question) == 1);
 }));
+/// Levels within a step, in the order of the header's bits.
+inline constexpr Level kHeaderImpacts[] = {Level::kImpactVf,       Level::kImpactEe,
+                                           Level::kImpactTriangle, Level::kImpact,
+                                           Level::kImpactSelfVf,   Level::kImpactSelfEe};
 inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision::kSingle};
 inline constexpr DepthKind kHeaderDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
                                                   DepthKind::kConvexPair};
@@ -54,6 +58,7 @@ struct Declaration {
   bool unisolated = false;  ///< it is asked in a process that cannot be ended with it
   bool transient = false;   ///< no later run can reach it: it lives in the caller of this one
 
+  /// Frames, or steps from one to the next.
   bool answers_frames() const { return !semantics.questions.empty(); }
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <iterator>
@@ -18,6 +19,7 @@
 #include "reference/plugin/library_object.h"
 #include "reference/plugin/library_trace.h"
 #include "reference/plugin/plugin_library.h"
+#include "reference/plugin/step_answer.h"
 
 namespace contactcheck::plugin {
 namespace {
@@ -79,6 +81,55 @@ void add_vertex_contacts(void* host, const contactcheck_vertex_contact* items,
   });
 }
 
+// The host's side of contactcheck_step_answer. Items that do not say "contact" are none.
+StepAnswer& step_of(void* host) { return *static_cast<StepAnswer*>(host); }
+
+std::optional<double> time_of(const contactcheck_impact& impact) {
+  return (impact.has & CONTACTCHECK_HAS_TIME) != 0 ? std::optional(impact.time) : std::nullopt;
+}
+
+template <typename Item, typename Take>
+void each_contact(const Item* items, std::size_t count, Take&& take) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (items[i].impact.contact != 0) take(items[i]);
+}
+
+// The time of a pair of elements is one at which their bodies meet.
+void add_time(StepAnswer& out, std::uint32_t a, std::uint32_t b,
+              const contactcheck_impact& impact) {
+  if (const auto time = time_of(impact); time && a != b) out.bodies.push_back({{a, b}, time});
+}
+
+void add_body_impacts(void* host, const contactcheck_body_impact* items,
+                      std::size_t count) noexcept {
+  each_contact(items, count, [&](const contactcheck_body_impact& item) {
+    step_of(host).bodies.push_back({{item.bodies.a, item.bodies.b}, time_of(item.impact)});
+  });
+}
+void add_triangle_impacts(void* host, const contactcheck_triangle_impact* items,
+                          std::size_t count) noexcept {
+  each_contact(items, count, [&](const contactcheck_triangle_impact& item) {
+    step_of(host).triangles.push_back(pair_of(item.triangles));
+    add_time(step_of(host), item.triangles.body_a, item.triangles.body_b, item.impact);
+  });
+}
+void add_vertex_impacts(void* host, const contactcheck_vertex_face_impact* items,
+                        std::size_t count) noexcept {
+  each_contact(items, count, [&](const contactcheck_vertex_face_impact& item) {
+    const contactcheck_near_pair& at = item.where;
+    step_of(host).vertices.push_back({at.body, at.other, at.vertex, at.triangle});
+    add_time(step_of(host), at.body, at.other, item.impact);
+  });
+}
+void add_edge_impacts(void* host, const contactcheck_edge_edge_impact* items,
+                      std::size_t count) noexcept {
+  each_contact(items, count, [&](const contactcheck_edge_edge_impact& item) {
+    step_of(host).edges.push_back(
+        {item.body_a, item.body_b, {item.a[0], item.a[1]}, {item.b[0], item.b[1]}});
+    add_time(step_of(host), item.body_a, item.body_b, item.impact);
+  });
+}
+
 /// Numbers of points, one after the other.
 const double* numbers(std::span<const Vec3> points) {
   return points.empty() ? nullptr : points.front().data();
@@ -130,7 +181,7 @@ contactcheck_semantics default_semantics() {
   return said;
 }
 
-/// @throws InputError for what does not exist or does not fit together
+/// @throws InputError for what does not exist
 Semantics semantics_of(const contactcheck_semantics& from) {
   Semantics s;
   s.levels = values_of(from.levels, kHeaderLevels, "levels");
@@ -148,8 +199,6 @@ Semantics semantics_of(const contactcheck_semantics& from) {
   s.depth = value_of(from.depth_kind, kHeaderDepthKinds, "kind of depth");
   s.whole_cells = from.whole_cells != 0;
   if (from.means != nullptr) s.means = std::string(from.means).substr(0, kLongestMeaning);
-  const std::string fault = semantics_fault(s);
-  if (!fault.empty()) throw InputError("declares what does not fit together: " + fault);
   return s;
 }
 
@@ -169,7 +218,7 @@ class LibraryDetector : public Detector {
  public:
   LibraryDetector(const PluginLibrary& library, const Options& options)
       : object_(library, options) {
-    declare();
+    semantics_ = declared();
   }
 
   const Semantics& semantics() const override { return semantics_; }
@@ -183,20 +232,39 @@ class LibraryDetector : public Detector {
     states_.resize(bodies.size());
     stages_ = {};
     counts_ = {};
+    ends_.resize(bodies.size());
+    step_reader_.prepare(bodies);
     object_.call("prepare", table().prepare, bodies_.data(), count(bodies_));
     declare_again();
   }
 
   void update(const Frame& frame) override {
     CONTACTCHECK_INVARIANT(frame.bodies.size() == states_.size(), "one state per prepared body");
-    for (std::size_t b = 0; b < states_.size(); ++b)
-      states_[b] = {numbers(frame.bodies[b].nodes),
-                    needs_vertices_ ? numbers(frame.bodies[b].vertices) : nullptr};
+    point_to(frame, states_);
     const contactcheck_frame own = {frame.index, frame.time, count(states_), 0, states_.data()};
     object_.call("update", table().update, &own);
   }
 
+  // Its one function for steps does all: the query calls it.
+  void update_step(const Step& step) override {
+    CONTACTCHECK_INVARIANT(
+        step.start.bodies.size() == states_.size() && step.end.bodies.size() == states_.size(),
+        "one state per prepared body at both ends");
+    point_to(step.start, states_);
+    point_to(step.end, ends_);
+    step_ = {step.index(),   step.start.time, step.end.time, count(states_), 0,
+             states_.data(), ends_.data()};
+  }
+
   void query(Question question, ContactSet& out) override {
+    if (is_of_steps(question)) {
+      StepAnswer found;
+      const contactcheck_step_answer sink = {&found, add_body_impacts, add_triangle_impacts,
+                                             add_vertex_impacts, add_edge_impacts};
+      object_.call("step", table().step, &step_, &sink);
+      step_reader_.read(object_.name(), found, out);
+      return;
+    }
     const contactcheck_answer answer = answer_into(out);
     object_.call("query", table().query, number_of(question), &answer);
     if (question == Question::kSelf) read_self_answer(object_.name(), out);
@@ -229,21 +297,52 @@ class LibraryDetector : public Detector {
     return static_cast<std::uint32_t>(items.size());
   }
 
-  void declare() {
-    contactcheck_semantics said = default_semantics();
-    object_.call("declare", table().declare, &said);
+  void point_to(const Frame& frame, std::vector<contactcheck_body_state>& states) const {
+    for (std::size_t b = 0; b < states.size(); ++b)
+      states[b] = {numbers(frame.bodies[b].nodes),
+                   needs_vertices_ ? numbers(frame.bodies[b].vertices) : nullptr};
+  }
+
+  // Frames and steps are claimed apart; one that answers steps alone has vertices and is of
+  // doubles.
+  Semantics declared() {
     try {
-      semantics_ = semantics_of(said);
+      Semantics s;
+      if (table().declare != nullptr) {
+        contactcheck_semantics said = default_semantics();
+        object_.call("declare", table().declare, &said);
+        s = semantics_of(said);
+        needs_vertices_ = said.needs_vertices != 0;
+      }
+      if (table().declare_impacts != nullptr) add_steps(s);
+      const std::string fault = semantics_fault(s);
+      if (!fault.empty()) throw InputError("declares what does not fit together: " + fault);
+      return s;
     } catch (const InputError& e) {
       throw InputError(object_.name() + " " + e.what());
     }
-    needs_vertices_ = said.needs_vertices != 0;
+  }
+
+  void add_steps(Semantics& s) {
+    contactcheck_impact_semantics said = {};
+    object_.call("declare_impacts", table().declare_impacts, &said);
+    const std::vector<Level> levels =
+        values_of(said.levels, kHeaderImpacts, "levels within a step");
+    if (levels.empty()) return;
+    if (table().step == nullptr || table().prepare == nullptr)
+      throw InputError("declares levels within a step and has no function prepare or step");
+    s.levels.insert(s.levels.end(), levels.begin(), levels.end());
+    if (table().declare == nullptr)
+      s.precision = value_of(said.precision, kHeaderPrecisions, "precision");
+    const auto own = std::count_if(levels.begin(), levels.end(), is_self_impact);
+    if (own < static_cast<std::ptrdiff_t>(levels.size())) s.questions.push_back(Question::kImpacts);
+    if (own > 0) s.questions.push_back(Question::kSelfImpacts);
   }
 
   void declare_again() {
     const Semantics before = semantics_;
     const bool needed_vertices = needs_vertices_;
-    declare();
+    semantics_ = declared();
     require_same_claims(object_.name(), before, semantics_);
     if (needed_vertices != needs_vertices_) refuse_change(object_.name(), "needs_vertices");
   }
@@ -252,7 +351,9 @@ class LibraryDetector : public Detector {
   bool needs_vertices_ = true;
   std::vector<std::unique_ptr<BodyView>> views_;  ///< what bodies_ point into
   std::vector<contactcheck_body> bodies_;
-  std::vector<contactcheck_body_state> states_;
+  std::vector<contactcheck_body_state> states_, ends_;  ///< of a frame; at both ends of a step
+  contactcheck_step step_ = {};
+  StepAnswerReader step_reader_;
   TraceCollector stages_;
   CountsCollector counts_;
   LibraryObject object_;  ///< last, so that it goes first: destroy() may still read the bodies

@@ -31,8 +31,6 @@ class LibraryImpacts final : public ImpactDetector {
       claims_.kinds = values_of(said.kinds, kHeaderKinds, "kinds of queries");
       claims_.precision = value_of(said.precision, kHeaderPrecisions, "precision");
       claims_.tolerance = {said.tolerance, said.tolerance_of_start};
-      if (said.levels >= CONTACTCHECK_IMPACT_SELF_EDGE_EDGE << 1)
-        throw InputError("declares levels within a step that do not exist");
       if (claims_.kinds.empty()) return;  // it answers steps alone
       if (object_.table().impact == nullptr)
         throw InputError("declares kinds of queries and has no function impact");

@@ -79,6 +79,7 @@ class PipeDetector : public Detector {
 
   // A scale, and a margin with it, may be taken from the bodies: then it declares anew.
   void prepare(const std::vector<Body>& bodies) override {
+    step_reader_.prepare(bodies);
     object_.or_kill([&] {
       const Reply ready = object_.ask(prepare_message(bodies, options_), "ready");
       if (!ready.root().has("semantics")) return;
@@ -94,11 +95,19 @@ class PipeDetector : public Detector {
     });
   }
 
+  void update_step(const Step& step) override {
+    object_.or_kill([&] {
+      reported_ns_ = object_.ask(step_message(step, object_.declaration()), "done").reported_ns();
+    });
+  }
+
   void query(Question question, ContactSet& out) override {
     object_.or_kill([&] {
       const Reply contacts = object_.ask(query_message(question), "contacts");
       check_contact_counts(contacts);
-      read_contacts(contacts, object_.receive(contacts.bytes()), out);
+      StepAnswer steps;
+      read_contacts(contacts, object_.receive(contacts.bytes()), out, steps);
+      step_reader_.read(object_.name(), steps, out);
       if (question == Question::kSelf) read_self_answer(object_.name(), out);
       reported_ns_ = contacts.reported_ns();
     });
@@ -110,6 +119,7 @@ class PipeDetector : public Detector {
  private:
   PipeObject object_;
   Options options_;
+  StepAnswerReader step_reader_;
   std::optional<double> reported_ns_;
 };
 

@@ -80,12 +80,31 @@ std::string prepare_message(const std::vector<Body>& bodies, const Options& opti
   return message({{"message", "prepare"}, {"options", Json(options)}, {"bodies", list}}, payload);
 }
 
+namespace {
+
+void append(const Frame& frame, const Declaration& needs, std::string& out) {
+  for (const BodyState& body : frame.bodies) {
+    if (needs.needs_vertices) append(body.vertices, out);
+    if (needs.needs_nodes) append(body.nodes, out);
+  }
+}
+
+}  // namespace
+
+std::string step_message(const Step& step, const Declaration& needs) {
+  std::string payload;
+  append(step.start, needs, payload);
+  append(step.end, needs, payload);
+  return message({{"message", "step"},
+                  {"index", step.index()},
+                  {"start_time", step.start.time},
+                  {"end_time", step.end.time}},
+                 payload);
+}
+
 std::string frame_message(const Frame& frame, const Declaration& needs) {
   std::string payload;
-  for (const BodyState& body : frame.bodies) {
-    if (needs.needs_vertices) append(body.vertices, payload);
-    if (needs.needs_nodes) append(body.nodes, payload);
-  }
+  append(frame, needs, payload);
   return message({{"message", "frame"}, {"index", frame.index}, {"time", frame.time}}, payload);
 }
 
@@ -148,7 +167,11 @@ constexpr List kLists[] = {{"bodies", 2 * kWord},
                            {"vertices", 3 * kWord},
                            {"near", 4 * kWord},
                            {"piece_contacts", 4 * kWord + 4 * kNumber},
-                           {"vertex_contacts", 4 * kWord + 4 * kNumber}};
+                           {"vertex_contacts", 4 * kWord + 4 * kNumber},
+                           {"impacts", 2 * kWord + kNumber},
+                           {"impact_triangles", 4 * kWord},
+                           {"impact_vertices", 4 * kWord},
+                           {"impact_edges", 6 * kWord}};
 
 std::size_t count_of(const Reply& reply, const List& list) {
   if (!reply.root().has(list.key)) return 0;
@@ -169,6 +192,10 @@ class Reader {
   ElementPair elements() {
     const std::uint32_t body_a = word(), body_b = word(), a = word(), b = word();
     return {body_a, body_b, a, b};
+  }
+  NearPair near() {
+    const std::uint32_t body = word(), other = word(), vertex = word(), triangle = word();
+    return {body, other, vertex, triangle};
   }
   VertexInBody vertex() {
     const std::uint32_t body = word(), in = word(), v = word();
@@ -196,7 +223,7 @@ void check_contact_counts(const Reply& reply) {
                       std::to_string(reply.bytes()) + " in `bytes`");
 }
 
-void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out) {
+void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out, StepAnswer& steps) {
   check_contact_counts(reply);
   CONTACTCHECK_INVARIANT(bytes.size() == reply.bytes(), "as many bytes as were announced");
   Reader in(bytes);
@@ -212,10 +239,7 @@ void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out) 
   read(out.triangles, [](Reader& r) { return r.elements(); });
   read(out.cells, [](Reader& r) { return r.elements(); });
   read(out.vertices, [](Reader& r) { return r.vertex(); });
-  read(out.near, [](Reader& r) {
-    const std::uint32_t body = r.word(), other = r.word(), vertex = r.word(), t = r.word();
-    return NearPair{body, other, vertex, t};
-  });
+  read(out.near, [](Reader& r) { return r.near(); });
   read(out.piece_contacts, [](Reader& r) {
     PieceContact contact;
     contact.pieces = r.elements();
@@ -230,6 +254,21 @@ void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out) 
     contact.depth = r.number();
     contact.normal = r.vector();
     return contact;
+  });
+  read(steps.bodies, [](Reader& r) {
+    const std::uint32_t a = r.word(), b = r.word();
+    const double time = r.number();  // below 0: it reports none
+    return BodyImpact{{a, b}, time < 0.0 ? std::nullopt : std::optional(time)};
+  });
+  read(steps.triangles, [](Reader& r) { return r.elements(); });
+  read(steps.vertices, [](Reader& r) { return r.near(); });
+  read(steps.edges, [](Reader& r) {
+    NamedEdges edges;
+    edges.body_a = r.word();
+    edges.body_b = r.word();
+    for (Edge* edge : {&edges.a, &edges.b})
+      for (std::uint32_t& vertex : *edge) vertex = r.word();
+    return edges;
   });
 }
 

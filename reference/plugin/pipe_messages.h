@@ -15,6 +15,7 @@
 #include "core/types/impact.h"
 #include "core/types/semantics.h"
 #include "reference/plugin/declaration.h"
+#include "reference/plugin/step_answer.h"
 
 namespace contactcheck::plugin {
 
@@ -26,6 +27,8 @@ std::string hello_message();
 std::string prepare_message(const std::vector<Body>& bodies, const Options& options);
 /// `needs` says whether vertices, nodes or both follow.
 std::string frame_message(const Frame& frame, const Declaration& needs);
+/// Both ends, one after the other, each as in frame_message().
+std::string step_message(const Step& step, const Declaration& needs);
 std::string query_message(Question question);
 /// One query of moving elements: the places of four points at t = 0, then at t = 1.
 std::string impact_message(const ImpactQuery& query);
@@ -55,9 +58,10 @@ class Reply {
 /// What an answer of the kind `impact` says. @throws InputError for values of another type
 ReportedImpact read_impact(const Reply& reply);
 
-/// Appends the contacts that follow an answer of the kind `contacts`.
+/// Appends the contacts that follow an answer of the kind `contacts`: those of frames to `out`,
+/// those within steps to `steps`.
 /// @throws InputError when the counts of the line and the number of bytes do not agree
-void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out);
+void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out, StepAnswer& steps);
 /// The sizes alone: what read_contacts will throw for can be known before anything is read.
 void check_contact_counts(const Reply& reply);
 

@@ -60,11 +60,12 @@ std::string layout_fault(const contactcheck_plugin* table) {
 std::string content_fault(const contactcheck_plugin& table) {
   if (table.id == nullptr) return "has no id";
   if (table.option_count > 0 && table.options == nullptr) return "has options at no address";
-  const bool frames[] = {table.declare != nullptr, table.prepare != nullptr,
-                         table.update != nullptr, table.query != nullptr};
-  const bool all = frames[0] && frames[1] && frames[2] && frames[3];
-  const bool any = frames[0] || frames[1] || frames[2] || frames[3];
+  const bool frames[] = {table.declare != nullptr, table.update != nullptr, table.query != nullptr};
   const bool moving = table.declare_impacts != nullptr;
+  // Steps alone need prepare() as frames do.
+  const bool any =
+      frames[0] || frames[1] || frames[2] || (table.prepare != nullptr && table.step == nullptr);
+  const bool all = frames[0] && frames[1] && frames[2] && table.prepare != nullptr;
   if (table.create == nullptr || table.destroy == nullptr || (any || !moving) != all ||
       moving != (table.impact != nullptr || table.step != nullptr))
     return "lacks one of its functions";
@@ -127,7 +128,7 @@ Declaration PluginLibrary::declare() const {
     defaults[option.name] = option.default_value;
   }
   out.impacts = impact_claims_of(*this, defaults);
-  if (table_.declare == nullptr) {
+  if (table_.declare == nullptr && table_.step == nullptr) {
     if (!out.impacts) throw InputError(name_ + " answers neither frames nor queries");
     return out;
   }

@@ -36,7 +36,8 @@ void check_contacts(const plugin::Reply& reply, std::string_view bytes) {
   plugin::check_contact_counts(reply);
   if (bytes.size() < reply.bytes()) return;  // it would be waited for
   ContactSet out;
-  plugin::read_contacts(reply, bytes.substr(0, reply.bytes()), out);
+  plugin::StepAnswer steps;
+  plugin::read_contacts(reply, bytes.substr(0, reply.bytes()), out, steps);
   require(out.bodies.size() == announced(reply, "bodies") &&
               out.triangles.size() == announced(reply, "triangles") &&
               out.cells.size() == announced(reply, "cells") &&

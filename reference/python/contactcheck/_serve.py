@@ -47,6 +47,8 @@ def end_with_parent(how: int) -> None:
 # The lists of an answer in the order of the protocol, with the integers of a row; those of
 # piece_contacts and vertex_contacts have a depth and a normal each.
 LISTS = {"bodies": 2, "triangles": 4, "cells": 4, "vertices": 3, "near": 4}
+# Of answers about a step; those of impacts have a time each, where impact_times gives them.
+STEP_LISTS = {"impact_triangles": 4, "impact_vertices": 4, "impact_edges": 6}
 WITH_DEPTH = {"piece_contacts": ("piece_depths", "piece_normals", 4),
               "vertex_contacts": ("vertex_depths", "vertex_normals", 3)}
 
@@ -101,6 +103,17 @@ def _body(line: dict, data: _Data) -> Body:
     return Body(line["name"], vertices, faces, lattice)
 
 
+def _frame(index: int, time: float, bodies: list, needs: list, data: _Data) -> Frame:
+    frame = Frame(index, time, [], [])
+    for body in bodies:
+        grid = body["lattice"]
+        if "vertices" in needs:
+            frame.vertices.append(data.take("<f8", body["vertices"], 3))
+        if "nodes" in needs:
+            frame.nodes.append(data.take("<f8", grid["nodes"] if grid else body["vertices"], 3))
+    return frame
+
+
 def _rows(answer: dict, name: str, columns: int) -> np.ndarray:
     out = np.asarray(answer[name])
     if out.size == 0:
@@ -115,7 +128,7 @@ def _rows(answer: dict, name: str, columns: int) -> np.ndarray:
 def _answer(answer: Any) -> tuple[dict, bytes]:
     if not isinstance(answer, dict):
         answer = {"triangles": answer}
-    known = {*LISTS, *WITH_DEPTH, *(name for names in WITH_DEPTH.values() for name in names[:2])}
+    known = {*LISTS, *STEP_LISTS, "impacts", "impact_times", *WITH_DEPTH, *(name for names in WITH_DEPTH.values() for name in names[:2])}
     unknown = set(answer) - known
     if unknown:
         raise ValueError(f"query() answered with unknown lists: {', '.join(sorted(unknown))}")
@@ -134,6 +147,18 @@ def _answer(answer: Any) -> tuple[dict, bytes]:
             record["f1"], record["f2"] = answer[depths], answer[normals]
             line[name] = len(rows)
             data += record.tobytes()
+    if "impacts" in answer:
+        rows = _rows(answer, "impacts", 2)
+        record = np.zeros(len(rows), "2<u4, <f8")
+        record["f0"] = rows
+        record["f1"] = answer.get("impact_times", -1.0)  # below 0: not reported
+        line["impacts"] = len(rows)
+        data += record.tobytes()
+    for name, columns in STEP_LISTS.items():
+        if name in answer:
+            rows = _rows(answer, name, columns)
+            line[name] = len(rows)
+            data += rows.tobytes()
     return line, data
 
 
@@ -190,15 +215,13 @@ def serve(detector: Any, source: BinaryIO, to: BinaryIO, unisolated: bool = Fals
                 detector.prepare([_body(body, data) for body in bodies])
                 write({"message": "ready"})
             elif line["message"] == "frame":
-                frame = Frame(line["index"], line["time"], [], [])
-                for body in bodies:
-                    grid = body["lattice"]
-                    if "vertices" in hello["needs"]:
-                        frame.vertices.append(data.take("<f8", body["vertices"], 3))
-                    if "nodes" in hello["needs"]:
-                        count = grid["nodes"] if grid else body["vertices"]
-                        frame.nodes.append(data.take("<f8", count, 3))
-                detector.update(frame)
+                detector.update(_frame(line["index"], line["time"], bodies, hello["needs"], data))
+                write({"message": "done"})
+            elif line["message"] == "step":
+                start, end = (
+                    _frame(line["index"] + i, line[time], bodies, hello["needs"], data)
+                    for i, time in enumerate(("start_time", "end_time")))
+                detector.update_step(start, end)
                 write({"message": "done"})
             elif line["message"] == "query":
                 write(*_answer(detector.query(line["question"])))

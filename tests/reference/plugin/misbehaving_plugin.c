@@ -91,8 +91,8 @@ static int32_t create(const contactcheck_setting* settings, uint32_t count, void
     snprintf(message, CONTACTCHECK_MESSAGE_SIZE, "no licence for this machine");
     return CONTACTCHECK_ERROR;
   }
-  state->first = is(state, "lies-in-the-first-process") &&
-                 !is_in_a_file("CONTACTCHECK_PLUGIN_FOLDER", 0, 0);
+  state->first =
+      is(state, "lies-in-the-first-process") && !is_in_a_file("CONTACTCHECK_PLUGIN_FOLDER", 0, 0);
   *detector = state;
   return CONTACTCHECK_OK;
 }
@@ -188,8 +188,7 @@ static int32_t query(void* detector, uint32_t question, const contactcheck_answe
   if (state->first) is_in_a_file("CONTACTCHECK_PLUGIN_FOLDER", 0, 1);
   if (is(state, "works") || (is(state, "remembers-frames") && !remembers(state->frame)) ||
       (is(state, "remembers-nodes") && !remembers(state->hash)) ||
-      (is(state, "remembers-in-a-file") &&
-       !is_in_a_file("TMPDIR", state->frame, 1)))
+      (is(state, "remembers-in-a-file") && !is_in_a_file("TMPDIR", state->frame, 1)))
     work();
   if (state->frame != 2) return CONTACTCHECK_OK;
   if (is(state, "no-such-body")) add_triangles(answer, 7, 0, 1);

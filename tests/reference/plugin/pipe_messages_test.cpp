@@ -110,7 +110,8 @@ TEST(PipeMessages, OfContactsAreReadListByList) {
                             packed(u(13), u(14), u(15), u(16)) +
                             packed(u(1), u(2), u(3), u(4), 0.5, 1.0, 0.0, 0.0) +
                             packed(u(5), u(6), u(7), u(99), 0.25, 0.0, 0.0, 1.0);
-  read_contacts(reply, bytes, out);
+  StepAnswer steps;
+  read_contacts(reply, bytes, out, steps);
   EXPECT_THAT(out.bodies, ElementsAre(BodyPair{0, 1}));
   EXPECT_THAT(out.triangles, ElementsAre(ElementPair{2, 3, 4, 5}));
   EXPECT_THAT(out.cells, ElementsAre(ElementPair{6, 7, 8, 9}));
@@ -122,6 +123,28 @@ TEST(PipeMessages, OfContactsAreReadListByList) {
   ASSERT_EQ(out.vertex_contacts.size(), 1u);
   EXPECT_EQ(out.vertex_contacts[0].where, (VertexInBody{5, 6, 7}));
   EXPECT_EQ(out.vertex_contacts[0].normal, Vec3(0, 0, 1));
+}
+
+TEST(PipeMessages, OfContactsWithinStepsAreReadListByList) {
+  const Reply reply(R"({"message": "contacts", "impacts": 2, "impact_triangles": 1,
+                        "impact_vertices": 1, "impact_edges": 1, "bytes": 88})",
+                    "command", "contacts");
+  const std::string bytes = packed(u(0), u(1), 0.25) + packed(u(2), u(3), -1.0) +
+                            packed(u(4), u(5), u(6), u(7)) + packed(u(8), u(9), u(10), u(11)) +
+                            packed(u(12), u(13), u(14), u(15), u(16), u(17));
+  ContactSet out;
+  StepAnswer steps;
+  read_contacts(reply, bytes, out, steps);
+  ASSERT_EQ(steps.bodies.size(), 2u);
+  EXPECT_EQ(steps.bodies[0].bodies, (BodyPair{0, 1}));
+  EXPECT_EQ(steps.bodies[0].time, 0.25);
+  EXPECT_EQ(steps.bodies[1].time, std::nullopt);
+  EXPECT_THAT(steps.triangles, ElementsAre(ElementPair{4, 5, 6, 7}));
+  EXPECT_THAT(steps.vertices, ElementsAre(NearPair{8, 9, 10, 11}));
+  ASSERT_EQ(steps.edges.size(), 1u);
+  EXPECT_EQ(steps.edges[0].body_b, 13u);
+  EXPECT_EQ(steps.edges[0].a, (Edge{14, 15}));
+  EXPECT_EQ(steps.edges[0].b, (Edge{16, 17}));
 }
 
 std::string sentence_about_line(const std::string& line) {

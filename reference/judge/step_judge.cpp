@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
+
+#include "reference/judge/step_check.h"
 
 namespace contactcheck::judge {
 namespace {
@@ -35,7 +38,7 @@ LevelComparison compare(const std::vector<Pair>& truth, const std::vector<Pair>&
 }
 
 template <typename Value>
-bool has(const std::vector<Value>& sorted, const Value& value) {
+bool holds(const std::vector<Value>& sorted, const Value& value) {
   return std::binary_search(sorted.begin(), sorted.end(), value);
 }
 
@@ -43,8 +46,8 @@ bool has(const std::vector<Value>& sorted, const Value& value) {
 std::vector<BodyPair> passing_pairs(const JudgedScene& judged, std::size_t step) {
   std::vector<BodyPair> out;
   for (const oracle::FirstImpact& first : judged.steps[step].first)
-    if (!has(judged.truth[step].surface.bodies, first.bodies) &&
-        !has(judged.truth[step + 1].surface.bodies, first.bodies))
+    if (!holds(judged.truth[step].surface.bodies, first.bodies) &&
+        !holds(judged.truth[step + 1].surface.bodies, first.bodies))
       out.push_back(first.bodies);
   return out;
 }
@@ -57,15 +60,6 @@ std::vector<ElementPair> new_triangles(const JudgedScene& judged, std::size_t st
   std::set_difference(all.begin(), all.end(), before.begin(), before.end(),
                       std::back_inserter(out));
   return out;
-}
-
-// The mean length of a triangle's side at rest; 0 of a body that is a point.
-double mean_edge(const BodyShape& shape) {
-  double sum = 0.0;
-  for (const Triangle& t : shape.mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      sum += (shape.mesh.vertices[t[i]] - shape.mesh.vertices[t[(i + 1) % 3]]).stableNorm();
-  return sum / static_cast<double>(3 * shape.mesh.triangles.size());
 }
 
 }  // namespace
@@ -100,13 +94,15 @@ results::SceneImpacts scene_impacts(const JudgedScene& judged) {
             motion,
             (step.end.bodies[b].vertices[v] - step.start.bodies[b].vertices[v]).stableNorm() /
                 edges[b]);
+    // The difference of two coordinates, or its share of a small edge, may be no double.
+    motion = std::min(motion, std::numeric_limits<double>::max());
     std::uint64_t& starting = out.starting.emplace_back(0);
     for (const oracle::FirstImpact& first : judged.steps[k].first)
       starting += first.starts_in_contact ? 1 : 0;
     out.passing.push_back(passing_pairs(judged, k).size());
     for (const ElementPair& pair : new_triangles(judged, k)) {
       ++out.new_triangles;
-      if (!has(judged.truth[k + 1].surface.triangles, pair)) ++out.passing_triangles;
+      if (!holds(judged.truth[k + 1].surface.triangles, pair)) ++out.passing_triangles;
     }
   }
   return out;
@@ -125,14 +121,15 @@ void StepSums::add(std::size_t step, const std::vector<BodyPair>& at_start,
   for (const BodyImpact& impact : answer.impacts) within.push_back(impact.bodies);
   std::uint64_t& tunnelled = sums.tunnelled.emplace_back(0);
   for (const BodyPair& pair : passing_pairs(judged_, step)) {
-    const bool seen = of_steps_ ? has(within, pair) : has(at_start, pair) || has(at_end, pair);
+    const bool seen =
+        of_steps_ ? holds(within, pair) : holds(at_start, pair) || holds(at_end, pair);
     tunnelled += seen ? 0 : 1;
   }
   if (of_steps_) add_times(judged_.steps[step], answer);
   if (!of_triangles_) return;
   for (const ElementPair& pair : new_triangles(judged_, step)) {
     ++*sums.new_triangles;
-    if (!has(answer.impact_triangles, pair)) ++*sums.new_missed;
+    if (!holds(answer.impact_triangles, pair)) ++*sums.new_missed;
   }
 }
 

@@ -139,6 +139,9 @@ class PyDetector {
   void query(const std::string& name, ContactSet& out) {
     guarded([&] {
       const Question question = question_named(name);
+      if (is_of_steps(question))
+        throw InputError("the question \"" + name +
+                         "\" is about a step between two frames; run() asks it of scenes");
       require(State::kUpdated, "update() comes before query()");
       if (!made().semantics().answers(question))
         throw InputError(spec_.name + " does not answer the question \"" + name + "\"");

@@ -28,6 +28,9 @@ const Names kForMeshes = {"fcl-aabb",  "embree",           "bullet-gimpact",
 // Of one mesh that meets itself: those that answer.
 const Names kForItself = {"fcl-aabb", "embree", "full-refit", "ffd-lazy"};
 
+// More, of a scene that is judged between frames.
+const Names kForSteps = {"fcl-ccd", "embree-swept", "swept-aabb"};
+
 void add_new(const std::string& name, Names& names) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
@@ -119,6 +122,9 @@ class RunPlanner {
     return std::move(plan_);
   }
 
+  /// Places of the scenes whose detectors nobody has chosen.
+  const std::set<std::size_t>& usual() const { return usual_; }
+
  private:
   // Detectors that are asked for run in place of all others.
   Names given_or(const Names& usual) const {
@@ -153,8 +159,12 @@ class RunPlanner {
 
   void add_target(const std::string& name) {
     const scene::Target target = scene::find_target(name, fixtures_);
-    if (target.kind != scene::TargetKind::kSuite)
-      return add_scene(target.file, detectors_for_scenes("default"));
+    if (target.kind != scene::TargetKind::kSuite) {
+      const std::size_t place = plan_.scenes.size();
+      add_scene(target.file, detectors_for_scenes("default"));
+      if (wanted_.detectors.empty() && plan_.scenes.size() > place) usual_.insert(place);
+      return;
+    }
     const scene::Suite suite = scene::load_suite(target.file);
     for (const scene::SuiteScene& scene : suite.scenes)
       add_scene(scene::file_of(scene, fixtures_),
@@ -194,13 +204,15 @@ class RunPlanner {
   const fs::path fixtures_ = scene::fixtures_directory();
   DetectorNames names_;
   RunPlan plan_;
+  std::set<std::size_t> usual_;
 };
 
 // Reads them, and fills in what a run knows of each.
 void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
-                  std::vector<SceneTask>& tasks) {
+                  const std::set<std::size_t>& usual, std::vector<SceneTask>& tasks) {
   std::set<std::string> ids;
-  for (SceneTask& task : tasks) {
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    SceneTask& task = tasks[i];
     scene::Scene scene;
     if (const auto* drawn = std::get_if<scene::DrawnSpec>(&task.source)) {
       // Made where it is run: to make a thousand of them here takes minutes.
@@ -215,6 +227,8 @@ void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
       const auto* file = std::get_if<fs::path>(&task.source);
       throw InputError((file == nullptr ? "" : file->string() + ": ") + e.what());
     }
+    if (usual.contains(i) && any_impact(scene.levels))
+      for (const std::string& name : kForSteps) add_new(name, task.detectors);
     task.id = scene.id;
     task.frames = scene.frames;
     task.content = content_of(task.source, scene);
@@ -226,8 +240,9 @@ void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
 }  // namespace
 
 RunPlan plan_run(const RunTargets& wanted, const DetectorCatalog& catalog) {
-  RunPlan plan = RunPlanner(wanted, catalog).plan();
-  check_scenes(wanted.frames, catalog, plan.scenes);
+  RunPlanner planner(wanted, catalog);
+  RunPlan plan = planner.plan();
+  check_scenes(wanted.frames, catalog, planner.usual(), plan.scenes);
   return plan;
 }
 

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
+#include <type_traits>
+
+#include "core/types/mesh_edges.h"
+#include "tests/conformance/detectors.h"
 
 namespace contactcheck::test {
 namespace {
@@ -27,11 +32,29 @@ bool same_contacts(std::vector<Contact> a, std::vector<Contact> b) {
                     [](const Contact& x, const Contact& y) { return key(x) == key(y); });
 }
 
+bool same_ids(const BodyImpact& a, const BodyImpact& b) { return a.bodies == b.bodies; }
+template <typename T>
+bool same_ids(const T& a, const T& b) {
+  return a == b;
+}
+
+// Of contacts with depths and of impacts with times: the rest of them is compared apart.
 bool same_sets(const ContactSet& a, const ContactSet& b) {
-  return a.bodies == b.bodies && a.cells == b.cells && a.triangles == b.triangles &&
-         a.vertices == b.vertices && a.near == b.near && a.self == b.self &&
-         a.self_cells == b.self_cells && a.self_near == b.self_near &&
-         a.self_bodies == b.self_bodies;
+  bool same = true;
+  for_each_list(
+      [&same](ContactList, const auto& x, const auto& y) {
+        using Entry = typename std::decay_t<decltype(x)>::value_type;
+        if constexpr (!std::is_same_v<Entry, PieceContact> && !std::is_same_v<Entry, VertexContact>)
+          same = same && std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                                    [](const Entry& p, const Entry& q) { return same_ids(p, q); });
+      },
+      a, b);
+  return same;
+}
+
+bool same_times(const ContactSet& a, const ContactSet& b) {
+  return std::equal(a.impacts.begin(), a.impacts.end(), b.impacts.begin(), b.impacts.end(),
+                    [](const BodyImpact& x, const BodyImpact& y) { return x.time == y.time; });
 }
 
 std::vector<ElementPair> pieces_of(const ContactSet& set) {
@@ -51,12 +74,15 @@ ContactSet renamed(ContactSet set, std::uint32_t last) {
   const auto rename = [last](std::uint32_t& body) { body = last - body; };
   const auto rename_pair = [&](ElementPair& p) { rename(p.body_a), rename(p.body_b); };
   for (BodyPair& p : set.bodies) rename(p.a), rename(p.b);
-  for (ElementPair& p : set.cells) rename_pair(p);
-  for (ElementPair& p : set.triangles) rename_pair(p);
+  for (BodyImpact& p : set.impacts) rename(p.bodies.a), rename(p.bodies.b);
+  for (std::vector<ElementPair>* pairs :
+       {&set.cells, &set.triangles, &set.impact_triangles, &set.impact_edges})
+    for (ElementPair& p : *pairs) rename_pair(p);
   for (VertexInBody& v : set.vertices) rename(v.body), rename(v.in);
-  for (std::vector<NearPair>* pairs : {&set.near, &set.self_near})
+  for (std::vector<NearPair>* pairs :
+       {&set.near, &set.self_near, &set.impact_vertices, &set.self_impact_vertices})
     for (NearPair& p : *pairs) rename(p.body), rename(p.other);
-  for (std::vector<SelfPair>* pairs : {&set.self, &set.self_cells})
+  for (std::vector<SelfPair>* pairs : {&set.self, &set.self_cells, &set.self_impact_edges})
     for (SelfPair& p : *pairs) rename(p.body);
   for (std::uint32_t& body : set.self_bodies) rename(body);
   for (PieceContact& c : set.piece_contacts) rename_pair(c.pieces);
@@ -97,12 +123,17 @@ class IdCheck {
     if (!pair(p.body_a, p.body_b)) return;
     bad_ += p.a >= triangles_of(p.body_a) || p.b >= triangles_of(p.body_b) ? 1 : 0;
   }
+  void edges(const ElementPair& p) {
+    if (!pair(p.body_a, p.body_b)) return;
+    bad_ += p.a >= edges_of(p.body_a) || p.b >= edges_of(p.body_b) ? 1 : 0;
+  }
   void vertex(const VertexInBody& v) {
     if (!pair(v.body, v.in)) return;
     bad_ += v.vertex >= bodies_[v.body].shape->mesh.vertices.size() ? 1 : 0;
   }
   void self(const SelfPair& p) { own(p, &IdCheck::triangles_of); }
   void self_cells(const SelfPair& p) { own(p, &IdCheck::cells_of); }
+  void self_edges(const SelfPair& p) { own(p, &IdCheck::edges_of); }
   void self_near(const NearPair& p) {
     const bool good = p.body < bodies_.size() && p.other == p.body &&
                       p.vertex < bodies_[p.body].shape->mesh.vertices.size() &&
@@ -129,7 +160,14 @@ class IdCheck {
     return lattice ? lattice->cells.size() : 0;
   }
 
+  std::size_t edges_of(std::uint32_t body) const {
+    const auto [place, is_new] = edges_.try_emplace(body, 0);
+    if (is_new) place->second = mesh_edges(bodies_[body].shape->mesh.triangles).edges.size();
+    return place->second;
+  }
+
   const std::vector<Body>& bodies_;
+  mutable std::map<std::uint32_t, std::size_t> edges_;  // counted once per body
   std::uint64_t bad_ = 0;
 };
 
@@ -161,9 +199,10 @@ bool agree(const ContactSet& own, const ContactSet& other, Question question) {
 
 }  // namespace
 
-Answers ask_again(Detector& detector) {
+Answers ask_again(Detector& detector, Moment of) {
   Answers answers;
   for (Question question : detector.semantics().questions) {
+    if (!is_of(question, of)) continue;
     ContactSet& set = answers[question];
     detector.query(question, set);
     set.canonicalize();
@@ -179,9 +218,24 @@ Answers ask(Detector& detector, const FrameData& data, std::size_t index) {
   return ask_again(detector);
 }
 
+Step step_of(const Case& scene, std::size_t index, const Detector& detector) {
+  Step step = {scene.frames[index].frame(index), scene.frames[index + 1].frame(index + 1)};
+  if (!detector.needs_vertices())
+    for (Frame* end : {&step.start, &step.end})
+      for (BodyState& body : end->bodies) body.vertices = {};
+  return step;
+}
+
+Answers ask(Detector& detector, const Case& scene, Moment of, std::size_t index) {
+  if (of == Moment::kFrame) return ask(detector, scene.frames[index], index);
+  const Step step = step_of(scene, index, detector);
+  detector.update_step(step);
+  return ask_again(detector, of);
+}
+
 bool same(const Answers& a, const Answers& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.first == y.first && same_sets(x.second, y.second) &&
+    return x.first == y.first && same_sets(x.second, y.second) && same_times(x.second, y.second) &&
            same_contacts(x.second.piece_contacts, y.second.piece_contacts) &&
            same_contacts(x.second.vertex_contacts, y.second.vertex_contacts);
   });
@@ -211,6 +265,12 @@ std::string text(const Answers& answers) {
     add("pairs of one body's cells", set.self_cells.size());
     add("near pairs of one body", set.self_near.size());
     add("bodies that touch themselves", set.self_bodies.size());
+    add("impacts of bodies", set.impacts.size());
+    add("impacts of triangles", set.impact_triangles.size());
+    add("impacts of vertices", set.impact_vertices.size());
+    add("impacts of edges", set.impact_edges.size());
+    add("impacts of one body's vertices", set.self_impact_vertices.size());
+    add("impacts of one body's edges", set.self_impact_edges.size());
     add("contacts of pieces", set.piece_contacts.size());
     add("contacts of vertices", set.vertex_contacts.size());
   }
@@ -227,6 +287,12 @@ std::uint64_t invalid_ids(const ContactSet& set, const std::vector<Body>& bodies
   for (const SelfPair& p : set.self) check.self(p);
   for (const SelfPair& p : set.self_cells) check.self_cells(p);
   for (const NearPair& p : set.self_near) check.self_near(p);
+  for (const BodyImpact& p : set.impacts) check.pair(p.bodies.a, p.bodies.b);
+  for (const ElementPair& p : set.impact_triangles) check.triangles(p);
+  for (const NearPair& p : set.impact_vertices) check.near(p);
+  for (const ElementPair& p : set.impact_edges) check.edges(p);
+  for (const NearPair& p : set.self_impact_vertices) check.self_near(p);
+  for (const SelfPair& p : set.self_impact_edges) check.self_edges(p);
   for (const ElementPair& p : pieces_of(set))
     holds(set.cells, p) ? check.cells(p) : check.triangles(p);
   for (const VertexInBody& v : vertices_of(set)) check.vertex(v);
@@ -237,6 +303,28 @@ std::uint64_t unusable_contacts(const ContactSet& set) {
   std::uint64_t bad = 0;
   for (const PieceContact& c : set.piece_contacts) bad += usable(c.depth, c.normal) ? 0 : 1;
   for (const VertexContact& c : set.vertex_contacts) bad += usable(c.depth, c.normal) ? 0 : 1;
+  return bad;
+}
+
+std::uint64_t unusable_times(const ContactSet& set) {
+  std::uint64_t bad = 0;
+  for (const BodyImpact& impact : set.impacts)
+    bad += !impact.time || (*impact.time >= 0.0 && *impact.time <= 1.0) ? 0 : 1;
+  return bad;
+}
+
+std::uint64_t lists_of_other_questions(const ContactSet& set, Question question) {
+  std::uint64_t bad = 0;
+  for_each_list(
+      [&](ContactList list, const auto& entries) {
+        const bool own_impacts =
+            list == ContactList::kSelfImpactVertices || list == ContactList::kSelfImpactEdges;
+        const bool answers =
+            is_of_step(list) == is_of_steps(question) &&
+            (!is_of_step(list) || own_impacts == (question == Question::kSelfImpacts));
+        bad += answers || entries.empty() ? 0 : 1;
+      },
+      set);
   return bad;
 }
 

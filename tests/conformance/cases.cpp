@@ -219,6 +219,11 @@ std::vector<Case> cases_of(CaseGroup group) {
   return {};
 }
 
+std::size_t count_of(const Case& scene, Moment of) {
+  const std::size_t frames = scene.frames.size();
+  return of == Moment::kFrame ? frames : frames - (frames > 0 ? 1 : 0);
+}
+
 // These are made once: the lifecycle checks ask for them again and again.
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases = every_case();

@@ -22,7 +22,8 @@ class Answers : public ::testing::TestWithParam<std::string> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Answers, ::testing::ValuesIn(test::detector_names()),
+INSTANTIATE_TEST_SUITE_P(All, Answers,
+                         ::testing::ValuesIn(test::detector_names(test::Moment::kFrame)),
                          [](const auto& p) { return test::test_name(p.param); });
 
 TEST_P(Answers, ToScenesOfNoneAndOneBody) { expect_as_claimed(CaseGroup::kFew); }
@@ -33,6 +34,17 @@ TEST_P(Answers, ToEightIdenticalBodies) { expect_as_claimed(CaseGroup::kMany); }
 TEST_P(Answers, ToDegenerateMeshes) { expect_as_claimed(CaseGroup::kDegenerate); }
 TEST_P(Answers, ToBodiesOfManySizes) { expect_as_claimed(CaseGroup::kSizes); }
 TEST_P(Answers, ToBodiesThatDeform) { expect_as_claimed(test::moving_case()); }
+
+class StepAnswers : public ::testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(All, StepAnswers,
+                         ::testing::ValuesIn(test::detector_names(test::Moment::kStep)),
+                         [](const auto& p) { return test::test_name(p.param); });
+
+TEST_P(StepAnswers, AreAsClaimed) {
+  for (const test::Case& c : test::step_cases())
+    test::expect_as_known(GetParam(), c.name, test::observe_steps(test::maker_of(GetParam()), c));
+}
 
 }  // namespace
 }  // namespace contactcheck

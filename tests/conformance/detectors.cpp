@@ -1,5 +1,6 @@
 #include "tests/conformance/detectors.h"
 
+#include <algorithm>
 #include <cctype>
 
 #include "reference/adapters/register.h"
@@ -47,6 +48,24 @@ std::vector<std::string> detector_names() {
   for (const DetectorInfo& info : catalogue().all()) names.push_back(info.id);
   for (const char* variant : kVariants) names.push_back(variant);
   return names;
+}
+
+std::vector<std::string> detector_names(Moment of) {
+  std::vector<std::string> names = detector_names();
+  std::erase_if(names, [of](const std::string& name) {
+    const bool absent = !catalogue().find(catalogue().parse(name).id)->absent_because.empty();
+    return absent ? of != Moment::kFrame : !answers_any(make_detector(name)->semantics(), of);
+  });
+  return names;
+}
+
+bool is_of(Question question, Moment moment) {
+  return is_of_steps(question) == (moment == Moment::kStep);
+}
+
+bool answers_any(const Semantics& semantics, Moment moment) {
+  return std::any_of(semantics.questions.begin(), semantics.questions.end(),
+                     [moment](Question question) { return is_of(question, moment); });
 }
 
 std::string test_name(const std::string& detector) {

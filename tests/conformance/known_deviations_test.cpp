@@ -63,8 +63,10 @@ TEST(Surprises, AreOtherNumbersThanListed) {
 
 std::set<std::string> names_of_cases() {
   std::set<std::string> names;
-  for (const test::LifecycleCheck& check : test::lifecycle_checks()) names.insert(check.name);
-  for (const test::Case& c : test::all_cases()) names.insert(c.name);
+  for (const test::Moment of : {test::Moment::kFrame, test::Moment::kStep})
+    for (const test::LifecycleCheck& check : test::lifecycle_checks(of)) names.insert(check.name);
+  for (const auto* cases : {&test::all_cases(), &test::step_cases()})
+    for (const test::Case& c : *cases) names.insert(c.name);
   return names;
 }
 

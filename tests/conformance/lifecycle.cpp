@@ -6,22 +6,30 @@
 #include <thread>
 
 #include "tests/conformance/answers.h"
+#include "tests/conformance/detectors.h"
 
 namespace contactcheck::test {
 namespace {
 
-std::vector<Answers> all_answers(Detector& detector, const Case& scene) {
+std::vector<Answers> all_answers(Detector& detector, const Case& scene, Moment of) {
   std::vector<Answers> out;
-  for (std::size_t f = 0; f < scene.frames.size(); ++f)
-    out.push_back(ask(detector, scene.frames[f], f));
+  for (std::size_t i = 0; i < count_of(scene, of); ++i) out.push_back(ask(detector, scene, of, i));
   return out;
 }
 
-/// The answers of a detector that goes once through the frames, and how others differ from them.
+const std::vector<Case>& cases_about(Moment of) {
+  return of == Moment::kFrame ? all_cases() : step_cases();
+}
+
+/// The answers of a detector that goes once through the frames, or steps, and how others differ
+/// from them.
 class Comparison {
  public:
-  explicit Comparison(const Maker& make)
-      : scene(moving_case()), make_(make), plain_(all_answers(*detector(), scene)) {}
+  Comparison(const Maker& make, Moment moment)
+      : scene(moment == Moment::kFrame ? moving_case() : moving_step_case()),
+        of(moment),
+        make_(make),
+        plain_(all_answers(*detector(), scene, of)) {}
 
   std::unique_ptr<Detector> detector() const { return detector(scene.bodies); }
   std::unique_ptr<Detector> detector(const std::vector<Body>& bodies) const {
@@ -29,13 +37,13 @@ class Comparison {
     made->prepare(bodies);
     return made;
   }
-  Answers ask_frame(Detector& detector, std::size_t f) const {
-    return ask(detector, scene.frames[f], f);
-  }
+  std::size_t count() const { return plain_.size(); }
+  Answers ask_about(Detector& detector, std::size_t i) const { return ask(detector, scene, of, i); }
   const std::vector<Answers>& plain() const { return plain_; }
 
-  void add(std::size_t f, const Answers& got) {
-    add("frame " + std::to_string(f), same(plain_[f], got), plain_[f], got);
+  void add(std::size_t i, const Answers& got) {
+    add((of == Moment::kFrame ? "frame " : "step ") + std::to_string(i), same(plain_[i], got),
+        plain_[i], got);
   }
   void add(const std::string& where, bool as_expected, const Answers& plain, const Answers& got) {
     if (as_expected) return;
@@ -45,6 +53,7 @@ class Comparison {
   Observation result() const { return out_; }
 
   const Case& scene;
+  const Moment of;
 
  private:
   const Maker& make_;
@@ -53,107 +62,122 @@ class Comparison {
 };
 
 // Without this, a detector that always says the same would pass all the rest.
-Observation answers_follow_the_motion(const Maker& make) {
-  Comparison c(make);
-  c.add("first and last frame", !same(c.plain().front(), c.plain().back()), c.plain().front(),
+Observation answers_follow_the_motion(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  c.add("first and last", !same(c.plain().front(), c.plain().back()), c.plain().front(),
         c.plain().back());
   return c.result();
 }
 
-Observation repeated_query(const Maker& make) {
-  Comparison c(make);
+Observation repeated_query(const Maker& make, Moment of) {
+  Comparison c(make, of);
   const auto detector = c.detector();
-  for (std::size_t f = 0; f < c.scene.frames.size(); ++f) {
-    c.add(f, c.ask_frame(*detector, f));
+  for (std::size_t i = 0; i < c.count(); ++i) {
+    c.add(i, c.ask_about(*detector, i));
     detector->trace();
     detector->notes();
-    for (int i = 0; i < 2; ++i) c.add(f, ask_again(*detector));
+    for (int again = 0; again < 2; ++again) c.add(i, ask_again(*detector, of));
   }
   return c.result();
 }
 
 // A query appends to the set: what the caller has in it stays.
-Observation appended_answer(const Maker& make) {
-  Comparison c(make);
-  const std::size_t last = c.scene.frames.size() - 1;
+Observation appended_answer(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  const std::size_t last = c.count() - 1;
   const auto detector = c.detector();
-  c.ask_frame(*detector, last);
+  c.ask_about(*detector, last);
   for (Question question : detector->semantics().questions) {
+    if (!is_of(question, of)) continue;
     ContactSet set;
     set.bodies.push_back({7, 8});
+    set.impacts.push_back({{7, 8}, 0.5});
     detector->query(question, set);
-    const bool kept = !set.bodies.empty() && set.bodies.front() == BodyPair{7, 8};
+    const bool kept = !set.bodies.empty() && set.bodies.front() == BodyPair{7, 8} &&
+                      !set.impacts.empty() && set.impacts.front().bodies == BodyPair{7, 8};
     c.add(name_of(question), kept, c.plain()[last], {{question, set}});
   }
   return c.result();
 }
 
-Observation update_without_motion(const Maker& make) {
-  Comparison c(make);
+Observation update_without_motion(const Maker& make, Moment of) {
+  Comparison c(make, of);
   const auto detector = c.detector();
-  for (std::size_t f = 0; f < c.scene.frames.size(); ++f)
-    for (int i = 0; i < 3; ++i) c.add(f, c.ask_frame(*detector, f));
+  for (std::size_t i = 0; i < c.count(); ++i)
+    for (int again = 0; again < 3; ++again) c.add(i, c.ask_about(*detector, i));
   return c.result();
 }
 
-Observation large_motion_and_back(const Maker& make) {
-  Comparison c(make);
-  const auto detector = c.detector();
-  for (std::size_t f = 0; f < c.scene.frames.size(); ++f) {
-    std::vector<std::vector<Vec3>> nodes = c.scene.frames[f].nodes;
+Observation large_motion_and_back(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  Case away = c.scene;
+  for (FrameData& frame : away.frames) {
+    std::vector<std::vector<Vec3>> nodes = frame.nodes;
     for (std::vector<Vec3>& body : nodes)
       for (Vec3& n : body) n = 1024.0 * n + Vec3(0x1p20, 0, -0x1p18);
-    ask(*detector, make_frame(c.scene.bodies, std::move(nodes)));
-    c.add(f, c.ask_frame(*detector, f));
+    frame = make_frame(away.bodies, std::move(nodes));
+  }
+  const auto detector = c.detector();
+  for (std::size_t i = 0; i < c.count(); ++i) {
+    ask(*detector, away, of, i);
+    c.add(i, c.ask_about(*detector, i));
   }
   return c.result();
 }
 
-Observation frames_in_any_order(const Maker& make) {
-  Comparison c(make);
+Observation in_any_order(const Maker& make, Moment of) {
+  Comparison c(make, of);
   const auto detector = c.detector();
-  for (std::size_t f : {5, 0, 5, 3, 3, 1, 4, 2, 0}) c.add(f, c.ask_frame(*detector, f));
+  for (std::size_t i : {5, 0, 5, 3, 3, 1, 4, 2, 0})
+    if (i < c.count()) c.add(i, c.ask_about(*detector, i));
   return c.result();
 }
 
-Observation fresh_structure(const Maker& make) {
-  Comparison c(make);
-  for (std::size_t f = 0; f < c.scene.frames.size(); ++f) c.add(f, c.ask_frame(*c.detector(), f));
+Observation fresh_structure(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  for (std::size_t i = 0; i < c.count(); ++i) c.add(i, c.ask_about(*c.detector(), i));
   return c.result();
 }
 
-Observation prepare_again(const Maker& make) {
-  Comparison c(make);
-  const Case other = cases_of(CaseGroup::kMany).front();
+Observation prepare_again(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  const Case other =
+      of == Moment::kFrame ? cases_of(CaseGroup::kMany).front() : step_cases().front();
   const auto detector = c.detector(other.bodies);
-  ask(*detector, other.frames.front());
+  ask(*detector, other, of, 0);
   detector->prepare(c.scene.bodies);
-  for (std::size_t f = 0; f < c.scene.frames.size(); ++f) c.add(f, c.ask_frame(*detector, f));
+  for (std::size_t i = 0; i < c.count(); ++i) c.add(i, c.ask_about(*detector, i));
   return c.result();
 }
 
-// The deformed bodies as rest shapes, without lattices: the structure is built where it was
-// refitted before.
-Observation rebuilt_structure(const Maker& make) {
-  Comparison c(make);
-  for (std::size_t f = 0; f < c.scene.frames.size(); ++f) {
-    const FrameData& frame = c.scene.frames[f];
-    std::vector<Body> bodies;
-    for (std::size_t b = 0; b < c.scene.bodies.size(); ++b) {
-      const Body& body = c.scene.bodies[b];
-      bodies.push_back(
-          {body.name, make_bare_shape({frame.vertices[b], body.shape->mesh.triangles})});
-    }
-    c.add(f, ask(*c.detector(bodies), make_frame(bodies, frame.vertices), f));
+/// The deformed bodies of one frame as rest shapes, without lattices, in all frames.
+Case rebuilt(const Case& scene, std::size_t frame) {
+  Case out{scene.name, {}, {}, {}};
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    out.bodies.push_back({body.name, make_bare_shape({scene.frames[frame].vertices[b],
+                                                      body.shape->mesh.triangles})});
+  }
+  for (const FrameData& data : scene.frames)
+    out.frames.push_back(make_frame(out.bodies, data.vertices));
+  return out;
+}
+
+// The structure is built where it was refitted before.
+Observation rebuilt_structure(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  for (std::size_t i = 0; i < c.count(); ++i) {
+    const Case scene = rebuilt(c.scene, i);
+    c.add(i, ask(*c.detector(scene.bodies), scene, of, i));
   }
   return c.result();
 }
 
 // Each thread makes, prepares and drives a detector of its own. The barrier sets both off together,
 // twice, so that both instances are there when the frames begin.
-Observation two_threads(const Maker& make) {
+Observation two_threads(const Maker& make, Moment of) {
   constexpr int kRounds = 5;
-  Comparison c(make);
+  Comparison c(make, of);
   std::vector<std::vector<Answers>> answers(2);
   std::vector<std::exception_ptr> failures(2);
   std::barrier together(2);
@@ -163,7 +187,7 @@ Observation two_threads(const Maker& make) {
       const auto detector = c.detector();
       together.arrive_and_wait();
       for (int round = 0; round < kRounds; ++round)
-        for (const Answers& a : all_answers(*detector, c.scene)) answers[i].push_back(a);
+        for (const Answers& a : all_answers(*detector, c.scene, of)) answers[i].push_back(a);
     } catch (...) {
       failures[i] = std::current_exception();
       together.arrive_and_drop();
@@ -175,8 +199,7 @@ Observation two_threads(const Maker& make) {
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
   for (const std::vector<Answers>& of_thread : answers)
-    for (std::size_t i = 0; i < of_thread.size(); ++i)
-      c.add(i % c.scene.frames.size(), of_thread[i]);
+    for (std::size_t i = 0; i < of_thread.size(); ++i) c.add(i % c.count(), of_thread[i]);
   return c.result();
 }
 
@@ -190,35 +213,74 @@ Case reversed(Case scene) {
   return scene;
 }
 
-Observation swapped_bodies(const Maker& make) {
-  Comparison c(make);
-  for (const Case& scene : all_cases()) {
+Observation swapped_bodies(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  for (const Case& scene : cases_about(of)) {
     const Case other = reversed(scene);
     const auto forward = c.detector(scene.bodies), backward = c.detector(other.bodies);
-    for (std::size_t f = 0; f < scene.frames.size(); ++f) {
-      const Answers a = ask(*forward, scene.frames[f], f), b = ask(*backward, other.frames[f], f);
-      c.add(scene.name + ", frame " + std::to_string(f), mirrored(a, b, scene.bodies.size()), a, b);
+    for (std::size_t i = 0; i < count_of(scene, of); ++i) {
+      const Answers a = ask(*forward, scene, of, i), b = ask(*backward, other, of, i);
+      c.add(scene.name + ", " + std::to_string(i), mirrored(a, b, scene.bodies.size()), a, b);
     }
   }
   return c.result();
 }
 
+// Of a detector of both: neither kind of update leaves anything to the other.
+Observation frames_between(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  const auto detector = c.detector();
+  if (!answers_any(detector->semantics(), Moment::kFrame)) return {};
+  const std::vector<Answers> frames = all_answers(*detector, c.scene, Moment::kFrame);
+  for (std::size_t i = 0; i < c.count(); ++i) {
+    c.add(i, c.ask_about(*detector, i));
+    const Answers frame = ask(*detector, c.scene, Moment::kFrame, i);
+    c.add("frame " + std::to_string(i), same(frames[i], frame), frames[i], frame);
+    c.add(i, c.ask_about(*detector, i));
+  }
+  return c.result();
+}
+
+// The places that a step points to outlive the questions, the step itself need not: what it holds
+// is another step's by the time of these.
+Observation step_of_the_call_alone(const Maker& make, Moment of) {
+  Comparison c(make, of);
+  const auto detector = c.detector();
+  for (std::size_t i = 0; i < c.count(); ++i) {
+    Step step = step_of(c.scene, i, *detector);
+    detector->update_step(step);
+    step = step_of(c.scene, (i + 2) % c.count(), *detector);
+    c.add(i, ask_again(*detector, of));
+  }
+  return c.result();
+}
+
+std::vector<LifecycleCheck> made_checks(Moment of) {
+  std::vector<LifecycleCheck> checks = {{"answers-follow-the-motion", answers_follow_the_motion},
+                                        {"repeated-query", repeated_query},
+                                        {"appended-answer", appended_answer},
+                                        {"update-without-motion", update_without_motion},
+                                        {"large-motion-and-back", large_motion_and_back},
+                                        {"frames-in-any-order", in_any_order},
+                                        {"fresh-structure", fresh_structure},
+                                        {"prepare-again", prepare_again},
+                                        {"rebuilt-structure", rebuilt_structure},
+                                        {"two-threads", two_threads},
+                                        {"swapped-bodies", swapped_bodies}};
+  if (of == Moment::kFrame) return checks;
+  for (LifecycleCheck& check : checks)
+    check.name = check.run == in_any_order ? "steps-in-any-order" : "step-" + check.name;
+  checks.push_back({"step-frames-between", frames_between});
+  checks.push_back({"step-of-the-call-alone", step_of_the_call_alone});
+  return checks;
+}
+
 }  // namespace
 
-const std::vector<LifecycleCheck>& lifecycle_checks() {
-  static const std::vector<LifecycleCheck> checks = {
-      {"answers-follow-the-motion", answers_follow_the_motion},
-      {"repeated-query", repeated_query},
-      {"appended-answer", appended_answer},
-      {"update-without-motion", update_without_motion},
-      {"large-motion-and-back", large_motion_and_back},
-      {"frames-in-any-order", frames_in_any_order},
-      {"fresh-structure", fresh_structure},
-      {"prepare-again", prepare_again},
-      {"rebuilt-structure", rebuilt_structure},
-      {"two-threads", two_threads},
-      {"swapped-bodies", swapped_bodies}};
-  return checks;
+const std::vector<LifecycleCheck>& lifecycle_checks(Moment of) {
+  static const std::vector<LifecycleCheck> frames = made_checks(Moment::kFrame),
+                                           steps = made_checks(Moment::kStep);
+  return of == Moment::kFrame ? frames : steps;
 }
 
 }  // namespace contactcheck::test

@@ -1,11 +1,16 @@
 #include "tests/conformance/observation.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/types/check.h"
+#include "core/types/impact.h"
 #include "core/types/local_origin.h"
 #include "reference/judge/judge.h"
+#include "reference/judge/step_judge.h"
 #include "reference/oracle/oracle.h"
+#include "reference/oracle/step_truth.h"
+#include "reference/process/float_environment.h"
 #include "tests/conformance/answers.h"
 
 namespace contactcheck::test {
@@ -20,6 +25,7 @@ std::vector<Level> judgeable_levels(const Case& scene, const Semantics& semantic
                             open);
   std::vector<Level> levels =
       judge::judged_levels(scene.bodies, open, semantics, semantics.levels, nullptr);
+  std::erase_if(levels, is_impact);  // observe_steps() judges these
   if (semantics.precision == Precision::kSingle)
     std::erase_if(levels, [](Level l) { return l == Level::kCell || l == Level::kBox; });
   return levels;
@@ -96,6 +102,7 @@ class Observer {
     for (const auto& [question, set] : answers) {
       count("invalid id", invalid_ids(set, scene_.bodies));
       count("unusable contact", unusable_contacts(set));
+      count("list of another question", lists_of_other_questions(set, question));
     }
     count("contradiction", contradictions(answers, semantics_));
     count("unnamed visits", visits_are_named(detector_->trace()) ? 0 : 1);
@@ -142,7 +149,106 @@ class Observer {
   Observation out_;
 };
 
+const std::vector<oracle::StepTruth>& step_truths(const Case& scene) {
+  // Of each case once: the truth takes longer than any detector.
+  static std::map<std::string, std::vector<oracle::StepTruth>> known;
+  const auto [place, is_new] = known.try_emplace(scene.name);
+  if (is_new) place->second = step_truth_of(scene);
+  return place->second;
+}
+
+class StepObserver {
+ public:
+  StepObserver(const Maker& make, const Case& scene)
+      : scene_(scene),
+        detector_(prepared(make, scene.bodies)),
+        levels_(detector_->semantics().levels) {
+    CONTACTCHECK_INVARIANT(detector_->semantics().precision == Precision::kDouble,
+                           "steps are fed in doubles");
+    std::erase_if(levels_, [](Level level) { return !is_impact(level); });
+  }
+
+  void add_step(std::size_t s) {
+    const process::FloatEnvironmentGuard environment;
+    const Answers answers = ask(*detector_, scene_, Moment::kStep, s);
+    const std::string changed = environment.check_and_restore();
+    count("floating-point environment", changed.empty() ? 0 : 1);
+    ContactSet judged;
+    for (const auto& [question, set] : answers) {
+      count("invalid id", invalid_ids(set, scene_.bodies));
+      count("unusable time", unusable_times(set));
+      count("list of another question", lists_of_other_questions(set, question));
+      for_each_list(
+          [&](ContactList list, auto& all, const auto& answered) {
+            if (is_of_step(list) && judge::question_about(list, detector_->semantics()) == question)
+              all = answered;
+          },
+          judged, set);
+    }
+    out_.details += "\n  step " + std::to_string(s) + ": " + text(answers) + changed;
+    judge(step_truths(scene_)[s], judged);
+  }
+
+  Observation result() {
+    for (const std::string& note : detector_->notes()) out_.details += "\n  note: " + note;
+    return out_;
+  }
+
+ private:
+  void judge(const oracle::StepTruth& truth, const ContactSet& answer) {
+    for (const Level level : levels_) {
+      const results::LevelCounts counts =
+          judge::compare_step_at(level, truth.contacts, answer).counts;
+      const std::string name = name_of(level);
+      count(name + " missed", counts.missed);
+      count(name + " spurious", counts.spurious);
+      out_.details += "\n    " + name + ": truth " + std::to_string(counts.truth) + ", reported " +
+                      std::to_string(counts.reported) + ", hit " + std::to_string(counts.hit);
+    }
+    for (const BodyImpact& impact : answer.impacts)
+      for (const oracle::FirstImpact& first : truth.first)
+        if (impact.bodies == first.bodies && impact.time) judge(first, *impact.time);
+  }
+
+  // Both the time and the truth are within a width of the time that is meant.
+  void judge(const oracle::FirstImpact& first, double time) {
+    count("time early", time < first.earliest - kImpactTimeWidth ? 1 : 0);
+    count("time late", time > first.latest ? 1 : 0);
+    out_.details +=
+        "\n    time " + std::to_string(time) + ", truth " + std::to_string(first.earliest);
+  }
+
+  void count(const std::string& what, std::uint64_t times) {
+    if (times > 0) out_.findings[what] += times;
+  }
+
+  const Case& scene_;
+  std::unique_ptr<Detector> detector_;
+  std::vector<Level> levels_;
+  Observation out_;
+};
+
 }  // namespace
+
+std::vector<oracle::StepTruth> step_truth_of(const Case& scene) {
+  oracle::Oracle frames(scene.bodies);
+  oracle::StepOracle steps(scene.bodies);
+  std::vector<oracle::StepTruth> out;
+  for (std::size_t s = 0; s < count_of(scene, Moment::kStep); ++s) {
+    const Frame start = scene.frames[s].frame(s), end = scene.frames[s + 1].frame(s + 1);
+    const oracle::Truth at_start = frames.judge(start, {});
+    out.push_back(steps.judge({start, end}, at_start.surface.triangles, {true, true}));
+  }
+  return out;
+}
+
+Observation observe_steps(const Maker& make, const Case& scene) {
+  return guarded([&] {
+    StepObserver observer(make, scene);
+    for (std::size_t s = 0; s < count_of(scene, Moment::kStep); ++s) observer.add_step(s);
+    return observer.result();
+  });
+}
 
 Observation observe(const Maker& make, const Case& scene) {
   return guarded([&] {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/detect/detector.h"
+#include "reference/oracle/step_truth.h"
 #include "tests/conformance/cases.h"
 #include "tests/conformance/known_deviations.h"
 
@@ -25,6 +26,15 @@ struct Observation {
 ///
 /// A detector in single precision is held against the truth for the values that it was fed.
 Observation observe(const Maker& make, const Case& scene);
+
+/// The same for a case about steps. Names of findings, beside those: "unusable time" (not within
+/// the step), "time early" and "time late" (of a true pair of bodies, by more than the width that
+/// times are certified to), "list of another question", "floating-point environment".
+/// @pre the detector claims double precision, as all do that answer about steps
+Observation observe_steps(const Maker& make, const Case& scene);
+
+/// By step: between bodies and within them.
+std::vector<oracle::StepTruth> step_truth_of(const Case& scene);
 
 /// `what` as it is, but for what it throws: "refused" or "exception".
 Observation guarded(const std::function<Observation()>& what);

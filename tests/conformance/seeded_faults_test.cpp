@@ -202,9 +202,10 @@ void Faulty::spoil(ContactSet& set) {
 
 /// The lifecycle checks that find something.
 std::vector<std::string> finders_of(const Maker& make) {
+  constexpr auto kFrame = test::Moment::kFrame;
   std::vector<std::string> names;
-  for (const test::LifecycleCheck& check : test::lifecycle_checks())
-    if (!test::guarded([&] { return check.run(make); }).findings.empty())
+  for (const test::LifecycleCheck& check : test::lifecycle_checks(kFrame))
+    if (!test::guarded([&] { return check.run(make, kFrame); }).findings.empty())
       names.push_back(check.name);
   return names;
 }

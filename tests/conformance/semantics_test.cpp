@@ -47,6 +47,34 @@ TEST_P(Declared, LevelsAndQuestionsFitTogether) {
     EXPECT_TRUE(semantics_.answers(Question::kCells));
   }
   EXPECT_EQ(semantics_.answers(Question::kContacts), semantics_.depth != DepthKind::kNone);
+  for (const Level level : levels)
+    if (is_impact(level)) {
+      EXPECT_TRUE(
+          semantics_.answers(is_self_impact(level) ? Question::kSelfImpacts : Question::kImpacts))
+          << name_of(level);
+    }
+  EXPECT_EQ(any_impact(levels), test::answers_any(semantics_, test::Moment::kStep));
+}
+
+// A run asks and times the first question, and keeps frames and steps apart by it.
+TEST_P(Declared, QuestionsOfFramesComeBeforeThoseOfSteps) {
+  EXPECT_TRUE(std::is_partitioned(semantics_.questions.begin(), semantics_.questions.end(),
+                                  [](Question question) { return !is_of_steps(question); }));
+}
+
+// Else it would be asked about what it was never given.
+TEST_P(Declared, UpdatesOfWhatItIsNotAskedAboutThrow) {
+  const test::Case& scene = test::moving_case();
+  const auto detector = test::make_detector(GetParam());
+  detector->prepare(scene.bodies);
+  if (!test::answers_any(semantics_, test::Moment::kFrame)) {
+    EXPECT_THROW(detector->update(scene.frames[0].frame()), std::logic_error);
+  }
+  if (!test::answers_any(semantics_, test::Moment::kStep) &&
+      semantics_.precision == Precision::kDouble) {
+    EXPECT_THROW(detector->update_step({scene.frames[0].frame(), scene.frames[1].frame()}),
+                 std::logic_error);
+  }
 }
 
 TEST_P(Declared, MarginAndScaleAreUsable) {

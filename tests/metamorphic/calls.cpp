@@ -77,9 +77,15 @@ std::vector<Answers> ask_after_far_frame(const Asked& asked, std::size_t frame) 
   return {ask_frame(asked.detector, asked, frame)};
 }
 
+std::vector<Question> questions_of_frames(const Semantics& semantics) {
+  std::vector<Question> out = semantics.questions;
+  std::erase_if(out, is_of_steps);
+  return out;
+}
+
 std::vector<Answers> ask_with_contacts(const Asked& asked, std::size_t frame) {
   ask_frame(asked.detector, asked, frame);
-  const std::vector<Question>& questions = asked.detector.semantics().questions;
+  const std::vector<Question> questions = questions_of_frames(asked.detector.semantics());
   Answers backwards;
   for (auto q = questions.rbegin(); q != questions.rend(); ++q) {
     asked.detector.query(*q, backwards[*q]);

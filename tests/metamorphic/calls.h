@@ -17,6 +17,9 @@ struct Asked {
   const Variant& variant;
 };
 
+/// Those of its questions that are about frames, in order.
+std::vector<Question> questions_of_frames(const Semantics& semantics);
+
 /// All answers that are given about the frame. @pre the variant has this frame
 using Calls = std::function<std::vector<Answers>(const Asked& asked, std::size_t frame)>;
 

@@ -162,7 +162,7 @@ Outcome RelationCase::against_truth(const Maker& make) {
   const auto detector = prepared(make, variant_.bodies);
   std::vector<Answers> expected;
   for (const ContactSet& truth : truth_)
-    expected.push_back(answers_by_truth(truth, detector->semantics().questions));
+    expected.push_back(answers_by_truth(truth, questions_of_frames(detector->semantics())));
   return against(make, *detector, expected);
 }
 

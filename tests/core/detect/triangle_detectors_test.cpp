@@ -97,6 +97,12 @@ TEST_P(TriangleDetectors, ClaimExactClosedSurfacesInDouble) {
                   {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge, Level::kSelfBody});
     questions.push_back(Question::kSelf);
   }
+  if (name == "ffd-lazy" || name == "full-refit") {
+    levels.insert(levels.end(),
+                  {Level::kImpactVf, Level::kImpactEe, Level::kImpactTriangle, Level::kImpact,
+                   Level::kImpactSelfVf, Level::kImpactSelfEe});
+    questions.insert(questions.end(), {Question::kImpacts, Question::kSelfImpacts});
+  }
   EXPECT_EQ(semantics.levels, levels);
   EXPECT_EQ(semantics.questions, questions);
   EXPECT_TRUE(semantics.exact);

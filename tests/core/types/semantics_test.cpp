@@ -10,11 +10,10 @@ namespace {
 TEST(Level, NamesAreTheDesignsAndReadBack) {
   for (const Level level : kLevels) EXPECT_EQ(level_from_name(name_of(level)), level);
   EXPECT_EQ(level_names(),
-            (std::vector<std::string>{"body", "containment", "cell", "box", "triangle", "vertex",
-                                      "near", "self", "self-vertex", "self-edge", "self-body",
-                                      "self-cell", "self-near", "impact-vf", "impact-ee",
-                                      "impact-triangle", "impact", "impact-self-vf",
-                                      "impact-self-ee"}));
+            (std::vector<std::string>{
+                "body", "containment", "cell", "box", "triangle", "vertex", "near", "self",
+                "self-vertex", "self-edge", "self-body", "self-cell", "self-near", "impact-vf",
+                "impact-ee", "impact-triangle", "impact", "impact-self-vf", "impact-self-ee"}));
   EXPECT_EQ(level_from_name("Body"), std::nullopt);
   EXPECT_EQ(level_from_name(""), std::nullopt);
 }
@@ -33,9 +32,9 @@ TEST(Level, IsOfOneKindOfContact) {
   }
   EXPECT_EQ(self, (std::vector<Level>{Level::kSelf, Level::kSelfVertex, Level::kSelfEdge,
                                       Level::kSelfBody, Level::kSelfCell, Level::kSelfNear}));
-  EXPECT_EQ(impact, (std::vector<Level>{Level::kImpactVf, Level::kImpactEe, Level::kImpactTriangle,
-                                        Level::kImpact, Level::kImpactSelfVf,
-                                        Level::kImpactSelfEe}));
+  EXPECT_EQ(impact,
+            (std::vector<Level>{Level::kImpactVf, Level::kImpactEe, Level::kImpactTriangle,
+                                Level::kImpact, Level::kImpactSelfVf, Level::kImpactSelfEe}));
   EXPECT_EQ(self_impact, (std::vector<Level>{Level::kImpactSelfVf, Level::kImpactSelfEe}));
   EXPECT_TRUE(any_self({Level::kBody, Level::kSelfNear}));
   EXPECT_FALSE(any_self({Level::kBody, Level::kImpactSelfVf})) << "of steps";

@@ -113,7 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
                ": the document has none of the keys duration, time_step; exactly one is needed."},
         Defect{"UnknownLevel", R"(["body"])", R"(["body", "edge"])",
                ": levels[1] is \"edge\"; it must be one of body, containment, cell, box, triangle, "
-               "vertex, near, self, self-vertex, self-edge, self-body, self-cell, self-near."},
+               "vertex, near, self, self-vertex, self-edge, self-body, self-cell, self-near, "
+               "impact-vf, impact-ee, impact-triangle, impact, impact-self-vf, impact-self-ee."},
         Defect{"RepeatedLevel", R"(["body"])", R"(["body", "body"])",
                ": levels[1] is \"body\"; it must be named once only."},
         Defect{"NoLevel", R"(["body"])", "[]",

@@ -43,7 +43,7 @@ std::vector<CatalogueEntry> speed_scenes() {
 std::vector<CatalogueEntry> scenes_that_are(bool simulated) {
   std::vector<CatalogueEntry> out;
   for (const CatalogueEntry& entry : list_scenes(kFixtures)) {
-    if (measures_speed(entry.id)) continue;
+    if (measures_speed(entry.id) || entry.id.starts_with("step-")) continue;
     const text::JsonValue scene =
         text::parse_json(text::read_file_bytes(entry.file, "scene file"), entry.id);
     if (scene.find("sweep") != nullptr) continue;  // poses, not a motion
@@ -128,6 +128,32 @@ TEST_P(SpeedFixture, LoadsAndMovesALittleInSixCellsASide) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fixtures, SpeedFixture, ::testing::ValuesIn(speed_scenes()), named_entry);
+
+// Those of the suite `continuous`: few frames, since every step is judged.
+std::vector<CatalogueEntry> step_scenes() {
+  std::vector<CatalogueEntry> out;
+  for (const CatalogueEntry& entry : list_scenes(kFixtures))
+    if (entry.id.starts_with("step-")) out.push_back(entry);
+  return out;
+}
+
+class StepFixture : public ::testing::TestWithParam<CatalogueEntry> {};
+
+TEST_P(StepFixture, LoadsAndIsJudgedBetweenFrames) {
+  if (!data_installed()) GTEST_SKIP() << "install libcgal-demo and povray-examples";
+  const Scene scene = load_scene(GetParam().file);
+  EXPECT_EQ(scene.id, GetParam().id);
+  EXPECT_GE(scene.frames, 4u);
+  EXPECT_LE(scene.frames, 12u);
+  EXPECT_TRUE(any_impact(scene.levels));
+  EXPECT_EQ(scene.judges(Level::kImpactSelfVf), scene.bodies.size() == 1);
+  std::size_t triangles = 0;
+  for (const Body& body : scene.bodies) triangles += body.shape->mesh.triangles.size();
+  EXPECT_GE(triangles, 5000u);
+  EXPECT_LE(triangles, 151'000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures, StepFixture, ::testing::ValuesIn(step_scenes()), named_entry);
 
 class SimulatedFixture : public ::testing::TestWithParam<CatalogueEntry> {};
 

@@ -44,9 +44,9 @@ class Bits {
 struct Translation {
   float low[3], high[3];         // of boxes, with the slack
   float middle[3], half_way[3];  // of slabs: at t = 1/2, and its half growth
-  float slab_slack;
-  bool moves;  // it grows
-  bool none;   // both have one frame and one reach: either's slack covers a test
+  float slack, slab_slack;       // of boxes, which have it already, and of slabs
+  bool moves;                    // it grows
+  bool none;                     // both have one frame and one reach: either's slack covers a test
 };
 
 // One child's bounds, read in place: copies of single floats into a struct that vectors are
@@ -137,12 +137,12 @@ HWY_INLINE Translation translation_between(const LazyState& from, const LazyStat
   const double rounding = 8 * 0x1p-53 * origins + 1e-36;
   // False for NaN and infinity, too.
   const bool sound = longest <= 2.0 * r + 1e-30 && rounding < kEverything && r < kEverything;
-  const auto slack = static_cast<float>(sound ? rounding + 4 * kUnit * r : kEverything);
   Translation out;
+  out.slack = static_cast<float>(sound ? rounding + 4 * kUnit * r : kEverything);
   for (int k = 0; k < 3; ++k) {
     if (!sound) offset[k] = way[k] = 0.0;
-    out.low[k] = static_cast<float>(offset[k] + std::min(way[k], 0.0)) - slack;
-    out.high[k] = static_cast<float>(offset[k] + std::max(way[k], 0.0)) + slack;
+    out.low[k] = static_cast<float>(offset[k] + std::min(way[k], 0.0)) - out.slack;
+    out.high[k] = static_cast<float>(offset[k] + std::max(way[k], 0.0)) + out.slack;
     out.middle[k] = static_cast<float>(offset[k] + 0.5 * way[k]);
     out.half_way[k] = static_cast<float>(0.5 * way[k]);
   }

@@ -14,7 +14,8 @@ void add_check(CommandLine& line) {
       ->add_option("files", arguments->frames,
                    "numbered meshes; a mesh and its PC2 or MDD file; a recording")
       ->required();
-  check->add_option("--allow", arguments->allow, "contact, self or depth=METRES; repeatable")
+  check
+      ->add_option("--allow", arguments->allow, "contact, self, depth=METRES or impact; repeatable")
       ->allow_extra_args(false)
       ->type_name("WHAT");
   check
@@ -27,6 +28,8 @@ void add_check(CommandLine& line) {
                    "space of PC2 and MDD: file (as it is) or mesh (led to it)")
       ->check(CLI::IsMember({"file", "mesh"}))
       ->type_name("SPACE");
+  check->add_flag("--between", arguments->between,
+                  "contact between frames, too: vertices move straight from frame to frame");
   check->add_flag("--repair", arguments->rules.repair,
                   "fill polygons that cross themselves by fans");
   check->add_flag("--weld", arguments->weld, "vertices at one place in the first frame are one");
@@ -34,8 +37,9 @@ void add_check(CommandLine& line) {
   check->add_flag("--json-lines", arguments->json_lines, "events on standard output");
   check->add_flag("--quiet", arguments->quiet, "no progress bar");
   check->footer(
-      "Exit code 1 when a frame has a contact that is not allowed.\n"
-      "depth=METRES allows a contact whose surface depth is certified to be at most that.\n"
+      "Exit code 1 when a frame, or with --between a step, has a contact that is not allowed.\n"
+      "A contact of a certified surface depth up to METRES is allowed by --allow depth=METRES.\n"
+      "With --allow impact, contacts between frames are listed and do not change the exit code.\n"
       "Example:\n  contactcheck check cloth_*.obj ball.obj --allow depth=0.002");
   choose(*check, line, [arguments, &line] { return check_command(*arguments, line.catalog); });
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "reference/cli/progress_display.h"
 #include "reference/cli/run_and_report.h"
 #include "reference/judge/frame_check.h"
+#include "reference/judge/step_check.h"
 #include "reference/process/exit_codes.h"
 #include "reference/scene/frame_files.h"
 #include "reference/text/counted.h"
@@ -28,19 +30,34 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using judge::AllowedContact, judge::BadFrame;
+using judge::AllowedContact, judge::BadFrame, judge::StepContact;
 using text::counted;
 
-constexpr std::size_t kMostShown = 10;  // frames, on a terminal
+constexpr std::size_t kMostShown = 10;  // frames, and steps, on a terminal
 
-AllowedContact allowed_by(const std::vector<std::string>& words) {
-  AllowedContact out;
+// What every line about a step says: the frames may be joined by other paths.
+constexpr const char* kPaths = "on straight paths between these frames";
+
+/// What --allow names.
+struct Allowed : AllowedContact {
+  bool impact = false;
+
+  /// Contact that a frame shows is judged by its depth there.
+  bool in_step(const StepContact& c) const {
+    return c.starts_in_contact() || (depth && !c.own() && !c.apart_at_both());
+  }
+};
+
+Allowed allowed_by(const std::vector<std::string>& words) {
+  Allowed out;
   for (const std::string& word : words) {
     char* end = nullptr;
     if (word == "contact") {
       out.contact = true;
     } else if (word == "self") {
       out.self = true;
+    } else if (word == "impact") {
+      out.impact = true;
     } else if (word.starts_with("depth=") && word.size() > 6) {
       const double depth = std::strtod(word.c_str() + 6, &end);
       if (*end != '\0' || !(depth >= 0.0 && depth <= 1e9))
@@ -48,18 +65,252 @@ AllowedContact allowed_by(const std::vector<std::string>& words) {
       out.depth = depth;
     } else {
       throw InputError("--allow " + text::in_quotes(word) +
-                       " is not one of contact, self, depth=METRES");
+                       " is not one of contact, self, depth=METRES, impact");
     }
   }
   return out;
 }
 
+void print_event(const Json& event) { EventLines(true).print(event.dump()); }
+
+/// Frames by number and file.
+struct FrameNames {
+  std::vector<std::string> labels;  ///< may be empty
+
+  std::string place(std::size_t frame) const {
+    return "frame " + std::to_string(frame) +
+           (frame < labels.size() ? " (" + labels[frame] + ")" : "");
+  }
+  std::string step(std::size_t step) const { return place(step) + " to " + place(step + 1); }
+  Json file(std::size_t frame) const {
+    return frame < labels.size() ? Json(labels[frame]) : Json(nullptr);
+  }
+};
+
+/// What is said of the steps, to a person or to a program.
+class StepReport {
+ public:
+  StepReport(const scene::Scene& scene, const FrameNames& frames, const Allowed& allowed, bool json)
+      : scene_(scene), frames_(frames), allowed_(allowed), json_(json) {}
+
+  void step(std::size_t step, const std::vector<StepContact>& contacts) {
+    if (contacts.empty()) return;
+    const auto is_found = [&](const StepContact& c) { return !allowed_.in_step(c); };
+    if (std::ranges::any_of(contacts, &StepContact::starts_in_contact)) ++starting_;
+    for (const StepContact& c : contacts)
+      if (c.starts_in_contact()) passing_ += c.passing;
+    if (const auto found = std::ranges::find_if(contacts, is_found); found != contacts.end()) {
+      found_.push_back(step);
+      if (found_.size() == 1) {
+        first_words_ = frames_.step(step) + ", " + sentence(step, *found);
+        first_has_own_ = std::ranges::any_of(
+            contacts, [&](const StepContact& c) { return is_found(c) && c.own(); });
+      }
+      if (std::ranges::any_of(
+              contacts, [&](const StepContact& c) { return is_found(c) && c.apart_at_both(); }))
+        ++unseen_;
+    }
+    if (json_) return print_event(json_of(step, contacts));
+    if (std::ranges::none_of(contacts, is_found) || found_.size() > kMostShown) return;
+    std::printf("\n%s\n", frames_.step(step).c_str());
+    for (const StepContact& c : contacts) std::printf("  %s\n", sentence(step, c).c_str());
+    std::fflush(stdout);
+  }
+
+  bool printed() const { return !json_ && !found_.empty(); }
+  bool is_bad() const { return !found_.empty() && !allowed_.impact; }
+  std::size_t first() const { return found_.front(); }  ///< @pre is_bad()
+  bool first_has_own() const { return first_has_own_; }
+  /// For the page, with all steps that are not allowed. @pre is_bad()
+  results::Finding finding() const {
+    std::string more;
+    for (std::size_t i = 1; i < found_.size() && i < kMostShown; ++i)
+      more += (i == 1 ? "; then frames " : ", ") + std::to_string(found_[i]) + " to " +
+              std::to_string(found_[i] + 1);
+    if (found_.size() > kMostShown)
+      more += " and " + counted(found_.size() - kMostShown, "more step");
+    return {count_text() + ", " + kPaths, first_words_ + more};
+  }
+
+  void print_end(const judge::StepChecker& checker) const {
+    if (found_.size() > kMostShown)
+      std::printf("\n... and %s\n", counted(found_.size() - kMostShown, "more step").c_str());
+    if (found_.empty())
+      std::printf("no step has a contact that is not allowed, %s\n", kPaths);
+    else
+      std::printf("%s, %s, the first is %s\n", count_text().c_str(), kPaths,
+                  frames_.step(found_.front()).c_str());
+    if (unseen_ > 0)
+      std::printf(
+          "%s that neither of its frames shows, %s\n",
+          (counted(unseen_, "step") + (unseen_ == 1 ? " has" : " have") + " a contact").c_str(),
+          kPaths);
+    if (starting_ > 0)
+      std::printf("%s in contact, %s; in them %s apart at both frames\n",
+                  (counted(starting_, "step") + (starting_ == 1 ? " starts" : " start")).c_str(),
+                  kPaths,
+                  (counted(passing_, "pair") + " of elements " + (passing_ == 1 ? "meets" : "meet"))
+                      .c_str());
+    if (const auto& motion = checker.largest_motion())
+      std::printf("largest motion in a step, %s: %s edge lengths (%s, %s)\n", kPaths,
+                  fmt::format("{:.3g}", motion->edges).c_str(), name(motion->body).c_str(),
+                  frames_.step(motion->step).c_str());
+    // Below, it is rounding that turns a triangle.
+    constexpr double kLeastTurn = 1e-3;
+    if (const auto& turn = checker.largest_turn(); turn && turn->degrees >= kLeastTurn)
+      std::printf("largest turn of a triangle in a step, %s: %s degrees (triangle %u of %s, %s)\n",
+                  kPaths, fmt::format("{:.3g}", turn->degrees).c_str(), turn->triangle,
+                  name(turn->body).c_str(), frames_.step(turn->step).c_str());
+    else if (checker.largest_motion())
+      std::printf("largest turn of a triangle in a step, %s: less than 0.001 degrees\n", kPaths);
+    if (!checker.largest_motion()) std::printf("nothing moves from frame to frame\n");
+  }
+
+  Json end_json(const judge::StepChecker& checker) const {
+    Json motion = nullptr, turn = nullptr;
+    if (const auto& largest = checker.largest_motion())
+      motion = {{"edges", largest->edges}, {"step", largest->step}, {"body", name(largest->body)}};
+    if (const auto& largest = checker.largest_turn())
+      turn = {{"degrees", largest->degrees},
+              {"step", largest->step},
+              {"body", name(largest->body)},
+              {"triangle", largest->triangle}};
+    return {{"paths", kPaths},
+            {"steps", scene_.frames - 1},
+            {"with_impacts", found_.size()},
+            {"allowed", allowed_.impact},
+            {"first", found_.empty() ? Json(nullptr) : Json(found_.front())},
+            {"unseen", unseen_},
+            {"starting", starting_},
+            {"largest_motion", std::move(motion)},
+            {"largest_turn", std::move(turn)}};
+  }
+
+ private:
+  const std::string& name(std::uint32_t body) const { return scene_.bodies[body].name; }
+  std::uint32_t number(std::uint32_t body, std::uint32_t vertex) const {
+    return scene_.bodies[body].shape->given.number_of(vertex);
+  }
+
+  std::string count_text() const {
+    return std::to_string(found_.size()) + " of " + counted(scene_.frames - 1, "step") +
+           (found_.size() == 1 ? " has" : " have") + " a contact" +
+           (allowed_.impact ? ", which is allowed" : " that is not allowed");
+  }
+
+  static const char* words_of(judge::EndState state) {
+    return state == judge::EndState::kApart     ? "apart"
+           : state == judge::EndState::kContact ? "in contact"
+                                                : "one inside the other";
+  }
+
+  // To the digits that are certified, and no more than a reader wants.
+  static std::string place_text(const judge::ElementImpact& impact) {
+    const double unit = std::pow(10.0, std::ceil(std::log10(impact.place_error)));
+    std::string out;
+    for (const double x : impact.place) {
+      const double rounded =
+          unit > 0.0 && std::isfinite(x / unit) ? std::round(x / unit) * unit : x;
+      out += (out.empty() ? "" : ", ") + fmt::format("{:.9g}", rounded == 0.0 ? 0.0 : rounded);
+    }
+    return "(" + out + ")";
+  }
+
+  std::string elements_text(const judge::ElementImpact& impact, bool own) const {
+    const auto of = [&](std::size_t i) { return own ? "" : " of " + name(impact.bodies[i]); };
+    if (impact.kind == ImpactKind::vertex_triangle)
+      return "vertex " + std::to_string(number(impact.bodies[0], impact.vertex)) + of(0) +
+             " and triangle " + std::to_string(impact.triangle) + of(1);
+    const auto edge = [&](std::size_t i) {
+      return "the edge of vertices " +
+             std::to_string(number(impact.bodies[i], impact.edges[i][0])) + " and " +
+             std::to_string(number(impact.bodies[i], impact.edges[i][1])) + of(i);
+    };
+    return edge(0) + " and " + edge(1);
+  }
+
+  std::string first_text(const StepContact& c) const {
+    const judge::ElementImpact& first = *c.first;
+    return "at " + fmt::format("{:.6g}", first.earliest) + " of the step, " +
+           elements_text(first, c.own()) + " at " + place_text(first);
+  }
+
+  std::string sentence(std::size_t step, const StepContact& c) const {
+    std::string out = name(c.bodies.a) + (c.own() ? " with itself" : " and " + name(c.bodies.b));
+    if (c.starts_in_contact()) {
+      out += ": in contact from the start";
+      if (c.first)
+        out += "; " + counted(c.later, "more pair") + " of elements, first " + first_text(c) +
+               ", " + std::to_string(c.passing) + " of them apart at both frames";
+    } else {
+      out += ": first " + first_text(c) + ", ";
+      if (c.apart_at_both())
+        out += "apart at both frames";
+      else
+        out += std::string(words_of(c.start)) + " at frame " + std::to_string(step) + ", " +
+               words_of(c.end) + " at frame " + std::to_string(step + 1);
+    }
+    return out + ", " + kPaths;
+  }
+
+  Json elements_json(const judge::ElementImpact& impact) const {
+    Json out = Json::array();
+    for (std::size_t i = 0; i < 2; ++i) {
+      Json one = {{"body", name(impact.bodies[i])}};
+      if (impact.kind == ImpactKind::edge_edge)
+        one["edge"] = {number(impact.bodies[i], impact.edges[i][0]),
+                       number(impact.bodies[i], impact.edges[i][1])};
+      else if (i == 0)
+        one["vertex"] = number(impact.bodies[i], impact.vertex);
+      else
+        one["triangle"] = impact.triangle;
+      out.push_back(std::move(one));
+    }
+    return out;
+  }
+
+  Json json_of(std::size_t step, const std::vector<StepContact>& contacts) const {
+    Json list = Json::array();
+    for (const StepContact& c : contacts) {
+      Json first = nullptr;
+      if (c.first)
+        first = {{"time", {{"lower", c.first->earliest}, {"upper", c.first->latest}}},
+                 {"elements", elements_json(*c.first)},
+                 {"place", {c.first->place.x(), c.first->place.y(), c.first->place.z()}},
+                 {"place_error", c.first->place_error}};
+      Json one = {{"bodies", {name(c.bodies.a), name(c.bodies.b)}},
+                  {"start", words_of(c.start)},
+                  {"end", words_of(c.end)},
+                  {"allowed", allowed_.in_step(c) || allowed_.impact}};
+      one["first"] = std::move(first);
+      one["later_pairs"] = c.later;
+      one["passing_pairs"] = c.passing;
+      list.push_back(std::move(one));
+    }
+    return {{"event", "step"},
+            {"step", step},
+            {"files", {frames_.file(step), frames_.file(step + 1)}},
+            {"paths", kPaths},
+            {"contacts", std::move(list)}};
+  }
+
+  const scene::Scene& scene_;
+  const FrameNames& frames_;
+  Allowed allowed_;
+  bool json_;
+  std::vector<std::size_t> found_;  // steps with a contact of its own
+  std::string first_words_;
+  bool first_has_own_ = false;
+  std::size_t unseen_ = 0, starting_ = 0, passing_ = 0;
+};
+
 /// What is said of the frames, to a person or to a program.
 class CheckReport {
  public:
-  CheckReport(const scene::Scene& scene, const scene::FrameFiles& files, bool json_lines)
+  CheckReport(const scene::Scene& scene, const scene::FrameFiles& files, const FrameNames& frames,
+              bool json_lines)
       : scene_(scene),
-        labels_(files.labels),
+        frames_(frames),
         shown_(files.shown),
         unchecked_(files.unchecked),
         json_(json_lines) {}
@@ -77,13 +328,13 @@ class CheckReport {
               (scene_.origins[b].notes.empty() ? "" : "; " + scene_.origins[b].notes) + "\n";
     }
     if (json_) {
-      print({{"event", "start"},
-             {"schema", "contactcheck-events/1"},
-             {"version", CONTACTCHECK_VERSION},
-             {"out", arguments.out.string()},
-             {"frames", scene_.frames},
-             {"unchecked", unchecked_},
-             {"bodies", bodies}});
+      print_event({{"event", "start"},
+                   {"schema", "contactcheck-events/1"},
+                   {"version", CONTACTCHECK_VERSION},
+                   {"out", arguments.out.string()},
+                   {"frames", scene_.frames},
+                   {"unchecked", unchecked_},
+                   {"bodies", bodies}});
     } else {
       if (!unchecked_.empty()) text += unchecked_text();
       std::printf("%s%s\n", text.c_str(), counted(scene_.frames, "frame").c_str());
@@ -103,9 +354,9 @@ class CheckReport {
                (!deepest_ || pair.depth.upper > deepest_->second.depth.upper))
         deepest_ = {bad.frame, pair};
     }
-    if (json_) return print(json_of(bad));
+    if (json_) return print_event(json_of(bad));
     if (bad_ > kMostShown) return;
-    std::printf("\n%s\n", place(bad.frame).c_str());
+    std::printf("\n%s\n", frames_.place(bad.frame).c_str());
     for (const BadFrame::Pair& pair : bad.pairs) std::printf("  %s\n", sentence(pair).c_str());
     for (const BadFrame::Self& self : bad.selfs) std::printf("  %s\n", sentence(self).c_str());
     std::fflush(stdout);
@@ -113,47 +364,49 @@ class CheckReport {
 
   std::size_t bad_frames() const { return bad_; }
   /// For the page. @pre bad_frames() > 0
-  results::Finding finding() const { return {count_text(), place(*first_) + ", " + first_words_}; }
+  results::Finding finding() const {
+    return {count_text(), frames_.place(*first_) + ", " + first_words_};
+  }
   std::optional<std::size_t> first() const { return first_; }
 
-  /// `open`: see FrameChecker.
+  /// `open`: see FrameChecker; `steps` and `checker`: null without --between.
   void end(const CheckArguments& arguments, const judge::OpenBodies& open, int exit_code,
-           const std::string& page) const {
+           const std::string& page, const StepReport* steps,
+           const judge::StepChecker* checker) const {
     Json not_judged = Json::array();
     std::string not_judged_text;
     for (const auto& [body, why] : open) {
       not_judged.push_back({{"body", name(body)}, {"level", "containment"}, {"reason", why}});
       not_judged_text += name(body) + ": containment and depth in it not judged: " + why + "\n";
     }
-    if (json_)
-      return print({{"event", "end"},
+    if (json_) {
+      Json event = {{"event", "end"},
                     {"out", arguments.out.string()},
                     {"bad_frames", bad_},
                     {"first", first_ ? Json(*first_) : Json(nullptr)},
-                    {"not_judged", not_judged},
-                    {"exit_code", exit_code}});
+                    {"not_judged", not_judged}};
+      if (steps != nullptr) event["between"] = steps->end_json(*checker);
+      event["exit_code"] = exit_code;
+      return print_event(event);
+    }
     if (bad_ > kMostShown)
       std::printf("\n... and %s\n", counted(bad_ - kMostShown, "more frame").c_str());
+    if (bad_ == 0 && steps != nullptr && steps->printed()) std::printf("\n");
     if (bad_ == 0) std::printf("no frame has a contact that is not allowed\n");
     std::printf("%s", not_judged_text.c_str());
-    if (bad_ == 0) return;
-    std::printf("\n%s, the first is %s\n", count_text().c_str(), place(*first_).c_str());
+    if (bad_ > 0)
+      std::printf("\n%s, the first is %s\n", count_text().c_str(), frames_.place(*first_).c_str());
     if (deepest_)
       std::printf("%s: %s, %s\n", unknown_depth_ ? "deepest of known depth" : "deepest",
-                  place(deepest_->first).c_str(), sentence(deepest_->second).c_str());
-    std::printf("%s shows it\n", page.c_str());
+                  frames_.place(deepest_->first).c_str(), sentence(deepest_->second).c_str());
+    if (steps != nullptr) steps->print_end(*checker);
+    if (!page.empty()) std::printf("%s shows it\n", page.c_str());
   }
 
  private:
-  static void print(const Json& event) { EventLines(true).print(event.dump()); }
-
   std::string count_text() const {
     return std::to_string(bad_) + " of " + counted(scene_.frames, "frame") +
            (bad_ == 1 ? " has" : " have") + " a contact that is not allowed";
-  }
-  std::string place(std::size_t frame) const {
-    return "frame " + std::to_string(frame) +
-           (frame < labels_.size() ? " (" + labels_[frame] + ")" : "");
   }
   std::string unchecked_text() const {
     constexpr std::size_t kMostNamed = 4;
@@ -234,13 +487,14 @@ class CheckReport {
     }
     return {{"event", "frame"},
             {"frame", bad.frame},
-            {"file", bad.frame < labels_.size() ? Json(labels_[bad.frame]) : Json(nullptr)},
+            {"file", frames_.file(bad.frame)},
             {"contacts", std::move(contacts)},
             {"self", std::move(selfs)}};
   }
 
   const scene::Scene& scene_;
-  std::vector<std::string> labels_, shown_, unchecked_;
+  const FrameNames& frames_;
+  std::vector<std::string> shown_, unchecked_;
   bool json_;
   std::size_t bad_ = 0;
   std::optional<std::size_t> first_;
@@ -259,27 +513,64 @@ std::vector<Level> levels_of(const AllowedContact& allowed) {
   return levels;
 }
 
-/// The page about one frame: a run of its own, on a recording of it. Returns its path; a build
-/// without npm has no page, but a report.
+/// What the page shows.
+struct PageSubject {
+  std::string id;
+  std::vector<std::size_t> frames;
+  std::vector<Level> levels;
+  std::vector<std::string> detectors;
+  results::Finding finding;
+};
+
+/// The first frame that is not allowed, else both ends of the first step.
+PageSubject page_subject(const CheckReport& frames, const StepReport& steps,
+                         const scene::Scene& scene) {
+  PageSubject out{{}, {}, scene.levels, {judge::kFrameDetector}, {}};
+  if (frames.first()) {
+    out.id = "frame-" + std::to_string(*frames.first());
+    out.frames = {*frames.first()};
+    out.finding = frames.finding();
+    if (steps.is_bad()) {
+      out.finding.title += ", and " + steps.finding().title;
+      out.finding.first += "; " + steps.finding().first;
+    }
+    return out;
+  }
+  const std::size_t step = steps.first();
+  out.id = "frames-" + std::to_string(step) + "-" + std::to_string(step + 1);
+  out.frames = {step, step + 1};
+  out.finding = steps.finding();
+  out.detectors.push_back(judge::kStepDetector);
+  const bool between =
+      std::ranges::any_of(scene.levels, [](Level level) { return !is_self(level); });
+  for (const Level level : kLevels)
+    if (is_impact(level) && (is_self_impact(level) ? steps.first_has_own() : between))
+      out.levels.push_back(level);
+  return out;
+}
+
+/// The page: a run of its own, on a recording of the frames. Returns its path; a build without npm
+/// has no page, but a report.
 fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
-                    const std::string& files, std::size_t frame, results::Finding finding,
-                    const DetectorCatalog& catalog) {
+                    const std::string& files, PageSubject subject, const DetectorCatalog& catalog) {
   Recording recording;
-  recording.scene = "frame-" + std::to_string(frame);
+  recording.scene = subject.id;
   recording.bodies = scene.bodies;
   recording.time_step = scene.time_step;
-  recording.levels = scene.levels;
-  recording.frames = {scene.nodes_of_frame(frame)};
+  recording.levels = subject.levels;
+  for (const std::size_t frame : subject.frames)
+    recording.frames.push_back(scene.nodes_of_frame(frame));
   const fs::path file = arguments.out / (recording.scene + ".ccr");
   write_recording(file, recording);
   RunArguments run;
   run.targets = {file.string()};
-  run.detectors = {judge::kFrameDetector};
+  run.detectors = subject.detectors;
   run.timing = false;
   run.quiet = true;
-  run.finding = std::move(finding);
+  run.finding = std::move(subject.finding);
   run.out = arguments.out;
-  run.command_line = "contactcheck check" + files + (arguments.weld ? " --weld" : "") +
+  run.command_line = "contactcheck check" + files + (arguments.between ? " --between" : "") +
+                     (arguments.weld ? " --weld" : "") +
                      (arguments.rules.repair ? " --repair" : "");
   for (const std::string& pattern : arguments.rules.patterns)
     run.command_line += " --frames " + text::in_shell(pattern);
@@ -293,10 +584,25 @@ fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
   return fs::exists(page) ? page : arguments.out / "report.md";
 }
 
+// A step goes from a frame to the next one.
+void refuse_left_out(const scene::Scene& scene, const scene::FrameFiles& files) {
+  if (scene.frames < 2)
+    throw InputError("--between looks from frame to frame, and here is one frame");
+  if (!files.unchecked.empty())
+    throw InputError("--between needs every frame of every body, and not every body has that of " +
+                     text::in_quotes(files.unchecked[0]) +
+                     (files.unchecked.size() > 1
+                          ? " and " + counted(files.unchecked.size() - 1, "more file")
+                          : "") +
+                     "; contact between frames that are farther apart is another question");
+}
+
 }  // namespace
 
 int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog) {
-  const AllowedContact allowed = allowed_by(arguments.allow);
+  const Allowed allowed = allowed_by(arguments.allow);
+  if (allowed.impact && !arguments.between)
+    throw InputError("--allow impact is about steps, which are checked with --between");
   const std::vector<Level> levels = levels_of(allowed);
   if (levels.empty())
     throw InputError("--allow contact and --allow self leave nothing to be checked");
@@ -317,9 +623,16 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   if (arguments.weld) scene::weld(scene);
   scene::refuse_crowded_vertices(scene);
 
-  CheckReport report(scene, files, arguments.json_lines);
+  if (arguments.between) refuse_left_out(scene, files);
+
+  const FrameNames names{files.labels};
+  CheckReport report(scene, files, names, arguments.json_lines);
+  StepReport steps(scene, names, allowed, arguments.json_lines);
   report.start(arguments);
   judge::FrameChecker checker(scene, allowed, catalog);
+  std::optional<judge::StepChecker> step_checker;
+  if (arguments.between) step_checker.emplace(scene, allowed, catalog);
+  judge::FrameContacts before;
   ProgressDisplay display(arguments.quiet || isatty(STDERR_FILENO) == 0, true);
   EventLines events(arguments.json_lines);
   const auto start = std::chrono::steady_clock::now();
@@ -336,21 +649,25 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
     const std::optional<double> left = seconds_left(elapsed, 0.0, progress.share);
     display.show(progress, left);
     if (events.wanted()) events.progress(progress, left);
-    if (const std::optional<BadFrame> bad = checker.check(f)) {
-      display.finish();
-      report.frame(*bad);
-    }
+    const std::optional<BadFrame> bad = checker.check(f);
+    std::vector<StepContact> found;
+    if (step_checker && f > 0) found = step_checker->check(f - 1, before, checker.contacts());
+    before = checker.contacts();
+    if (bad || !found.empty()) display.finish();
+    if (!found.empty()) steps.step(f - 1, found);
+    if (bad) report.frame(*bad);
   }
   display.finish();
   fs::path page;
-  if (report.first()) {
+  if (report.first() || steps.is_bad()) {
     std::string words =
         files.shown.empty() ? " " + text::in_shell(arguments.frames[0].string()) : "";
     for (const std::string& word : files.shown) words += " " + word;
-    page = write_page(arguments, scene, words, *report.first(), report.finding(), catalog);
+    page = write_page(arguments, scene, words, page_subject(report, steps, scene), catalog);
   }
-  const int code = report.bad_frames() > 0 ? 1 : 0;
-  report.end(arguments, checker.open(), code, page.string());
+  const int code = report.bad_frames() > 0 || steps.is_bad() ? 1 : 0;
+  report.end(arguments, checker.open(), code, page.string(), arguments.between ? &steps : nullptr,
+             step_checker ? &*step_checker : nullptr);
   return code;
 }
 

@@ -108,8 +108,9 @@ struct TuneArguments {
 
 struct CheckArguments {
   std::vector<std::filesystem::path> frames;  ///< files of a simulation; at least one
-  std::vector<std::string> allow;             ///< contact, self, depth=METRES
+  std::vector<std::string> allow;             ///< contact, self, depth=METRES, impact
   scene::FrameRules rules;                    ///< which files are frames of what
+  bool between = false;                       ///< look for contact between frames, too
   bool weld = false, quiet = false, json_lines = false;
   std::filesystem::path out = "out";
 };

@@ -49,6 +49,7 @@ std::optional<BadFrame> FrameChecker::check(std::size_t f) {
     open_.try_emplace(open.body,
                       oracle::open_reason(open.edge, scene_.bodies[open.body].shape->given,
                                           "frame " + std::to_string(f)));
+  contacts_ = {found.bodies, inside.pairs, found.self_bodies};
   if (found.triangles.empty() && found.self.empty() && inside.pairs.empty()) return std::nullopt;
   return confirmed(f, frame, found);
 }

@@ -46,6 +46,12 @@ struct BadFrame {
   std::vector<Self> selfs;
 };
 
+/// What is in contact in one frame, allowed or not; canonical. Empty where it is not looked for.
+struct FrameContacts {
+  std::vector<BodyPair> touching, inside;  ///< surfaces that meet; else one body inside the other
+  std::vector<std::uint32_t> self;
+};
+
 /// By body: the first frame in which it is open, and the open edge. Nothing counts as inside it.
 using OpenBodies = std::map<std::uint32_t, std::string>;
 
@@ -61,6 +67,8 @@ class FrameChecker {
   /// std::runtime_error if detector and oracle disagree, which is an error of contactcheck
   std::optional<BadFrame> check(std::size_t frame);
 
+  /// Of the last frame checked.
+  const FrameContacts& contacts() const { return contacts_; }
   const OpenBodies& open() const { return open_; }
 
  private:
@@ -74,6 +82,7 @@ class FrameChecker {
   std::unique_ptr<Detector> detector_;
   oracle::Oracle oracle_;
   oracle::SurfaceGeometry geometry_;
+  FrameContacts contacts_;
   OpenBodies open_;
 };
 

@@ -315,6 +315,7 @@ class LibraryDetector : public Detector {
         needs_vertices_ = said.needs_vertices != 0;
       }
       if (table().declare_impacts != nullptr) add_steps(s);
+      if (table().declare == nullptr && s.levels.empty()) return s;  // it answers queries alone
       const std::string fault = semantics_fault(s);
       if (!fault.empty()) throw InputError("declares what does not fit together: " + fault);
       return s;

@@ -134,6 +134,8 @@ Declaration PluginLibrary::declare() const {
   }
   const std::unique_ptr<Detector> detector = make_library_detector(*this, defaults);
   out.semantics = detector->semantics();
+  if (!out.answers_frames() && !out.impacts)
+    throw InputError(name_ + " answers neither frames nor queries");
   out.needs_vertices = detector->needs_vertices();
   return out;
 }

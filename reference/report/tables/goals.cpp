@@ -22,9 +22,8 @@ std::size_t passes_of(const MeasuredGoal& goal, const results::Index& index) {
   if (run == nullptr || run->times.empty()) return 0;
   const results::Run* reference = index.ok_run(goal.scene, goal.over);
   const results::Speedup* speedup =
-      reference == nullptr
-          ? nullptr
-          : speedup_of(*run, *results::goal_question(*run, *reference), goal.over);
+      reference == nullptr ? nullptr
+                           : speedup_of(*run, *results::goal_question(*run, *reference), goal.over);
   return speedup == nullptr ? run->times.front().passes : speedup->passes;
 }
 

@@ -332,9 +332,9 @@ TEST(SemanticsIn, AreAskedWhatTheSceneIsAbout) {
 
 // One of steps cannot be asked about frames; one of frames is asked all the same.
 TEST(SemanticsIn, OfStepsAloneAreAskedNothingWhereNoStepIsJudged) {
-  EXPECT_THAT(questions_in({Level::kTriangle, Level::kSelf},
-                           {Question::kImpacts, Question::kSelfImpacts}),
-              IsEmpty());
+  EXPECT_THAT(
+      questions_in({Level::kTriangle, Level::kSelf}, {Question::kImpacts, Question::kSelfImpacts}),
+      IsEmpty());
   EXPECT_THAT(questions_in({Level::kImpactSelfVf}, {Question::kImpacts}), IsEmpty());
   EXPECT_THAT(questions_in({Level::kImpact}, {Question::kTriangles, Question::kBody}),
               ElementsAre(Question::kTriangles, Question::kBody));

@@ -98,9 +98,8 @@ TEST_P(TriangleDetectors, ClaimExactClosedSurfacesInDouble) {
     questions.push_back(Question::kSelf);
   }
   if (name == "ffd-lazy" || name == "full-refit") {
-    levels.insert(levels.end(),
-                  {Level::kImpactVf, Level::kImpactEe, Level::kImpactTriangle, Level::kImpact,
-                   Level::kImpactSelfVf, Level::kImpactSelfEe});
+    levels.insert(levels.end(), {Level::kImpactVf, Level::kImpactEe, Level::kImpactTriangle,
+                                 Level::kImpact, Level::kImpactSelfVf, Level::kImpactSelfEe});
     questions.insert(questions.end(), {Question::kImpacts, Question::kSelfImpacts});
   }
   EXPECT_EQ(semantics.levels, levels);

@@ -117,7 +117,8 @@ std::string scene_text(const ScenePlan& plan) {
   // One body meets itself, several each other.
   nlohmann::json levels = nlohmann::json::array();
   for (const Level level : kLevels)
-    if (is_self(level) == (plan.bodies.size() == 1)) levels.push_back(name_of(level));
+    if (!is_impact(level) && is_self(level) == (plan.bodies.size() == 1))
+      levels.push_back(name_of(level));
   const std::vector<std::string> parts = {
       "\"id\": " + quoted(plan.id),
       "\"title\": " + quoted(plan.title),

@@ -35,7 +35,7 @@ def expect_refused(results, folder, sentence):
      'runs[0].speedup.body.fcl-aabb.interval is "range"; it must be "95 %"'),
     # Names of members are checked, too.
     ("runs/0/speedup/spheres", {}, 'a key of runs[0].speedup is "spheres"; it must be one of triangles, '
-                                   "body, cells, contacts, self"),
+                                   "body, cells, contacts, self, impacts, self-impacts"),
     # Of alternatives the sentence is that of the first.
     ("runs/0/geometry/missed_length", "long",
      'runs[0].geometry.missed_length is "long"; it must be of type number'),

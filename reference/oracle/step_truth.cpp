@@ -17,33 +17,8 @@
 namespace contactcheck::oracle {
 namespace {
 
-/// The elements of a mesh, and which triangles have them.
-struct Elements {
-  explicit Elements(const BodyShape& shape);
-
-  std::vector<Edge> edges;
-  std::vector<std::array<std::uint32_t, 3>> of_triangle;       ///< edges; MeshEdges::kNone: no edge
-  std::vector<std::vector<std::uint32_t>> at_vertex, at_edge;  ///< triangles, ascending
-  std::vector<std::uint32_t> place;  ///< of each vertex: the first one welded to it, or itself
-};
-
 void add_once(std::vector<std::uint32_t>& list, std::uint32_t item) {
   if (list.empty() || list.back() != item) list.push_back(item);
-}
-
-Elements::Elements(const BodyShape& shape)
-    : at_vertex(shape.mesh.vertices.size()), place(shape.mesh.vertices.size()) {
-  MeshEdges found = mesh_edges(shape.mesh.triangles);
-  edges = std::move(found.edges);
-  of_triangle = std::move(found.of_triangle);
-  at_edge.resize(edges.size());
-  for (std::uint32_t t = 0; t < of_triangle.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t vertex = shape.mesh.triangles[t][i], edge = of_triangle[t][i];
-      add_once(at_vertex[vertex], t);
-      if (edge != MeshEdges::kNone) add_once(at_edge[edge], t);
-      place[vertex] = shape.linked()[t][i];
-    }
 }
 
 template <typename Record>
@@ -61,6 +36,16 @@ void take_earlier(FirstImpact& first, const Impact& impact) {
 }  // namespace
 
 struct StepOracle::Impl {
+  /// The elements of a mesh, and which triangles have them.
+  struct Elements {
+    explicit Elements(const BodyShape& shape);
+
+    std::vector<Edge> edges;
+    std::vector<std::array<std::uint32_t, 3>> of_triangle;  ///< edges; MeshEdges::kNone: no edge
+    std::vector<std::vector<std::uint32_t>> at_vertex, at_edge;  ///< triangles, ascending
+    std::vector<std::uint32_t> place;  ///< of each vertex: the first one welded to it, or itself
+  };
+
   explicit Impl(const std::vector<Body>& bodies) {
     std::map<const BodyShape*, std::shared_ptr<const Elements>> made;
     for (const Body& body : bodies) {
@@ -160,6 +145,21 @@ struct StepOracle::Impl {
   std::vector<SurfaceTree> trees;
   const Step* step = nullptr;
 };
+
+StepOracle::Impl::Elements::Elements(const BodyShape& shape)
+    : at_vertex(shape.mesh.vertices.size()), place(shape.mesh.vertices.size()) {
+  MeshEdges found = mesh_edges(shape.mesh.triangles);
+  edges = std::move(found.edges);
+  of_triangle = std::move(found.of_triangle);
+  at_edge.resize(edges.size());
+  for (std::uint32_t t = 0; t < of_triangle.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t vertex = shape.mesh.triangles[t][i], edge = of_triangle[t][i];
+      add_once(at_vertex[vertex], t);
+      if (edge != MeshEdges::kNone) add_once(at_edge[edge], t);
+      place[vertex] = shape.linked()[t][i];
+    }
+}
 
 // `truth.contacts.impact_triangles` has the pairs that touch at the start already.
 void StepOracle::Impl::judge_pair(std::uint32_t a, std::uint32_t b, StepTruth& truth) {

@@ -1,5 +1,6 @@
 #include "reference/timing/timing.h"
 
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -18,7 +19,8 @@ struct MappedFrame {
 // A detector's input: a frame, or the step that begins there.
 class Input {
  public:
-  Input(const scene::Scene& scene, bool step) : scene_(scene), step_(step) {
+  Input(const scene::Scene& scene, bool step, bool vertices)
+      : scene_(scene), step_(step), vertices_(vertices) {
     for (MappedFrame* end : {&start_, &end_})
       for (const Body& body : scene.bodies)
         end->vertices.emplace_back(body.shape->mesh.vertices.size(), Vec3::Zero());
@@ -69,11 +71,12 @@ class Input {
   void point_to_vertices(MappedFrame& mapped) const {
     mapped.frame.bodies.clear();
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
-      mapped.frame.bodies.push_back({mapped.nodes[b], mapped.vertices[b]});
+      mapped.frame.bodies.push_back(
+          {mapped.nodes[b], vertices_ ? mapped.vertices[b] : std::span<const Vec3>()});
   }
 
   const scene::Scene& scene_;
-  const bool step_;
+  const bool step_, vertices_;  // one that needs no vertices gets none
   MappedFrame start_, end_;
   Step joined_;
 };
@@ -107,7 +110,7 @@ PhaseSample time_frame(Question question, Detector& detector, Input& input, Cont
 
 Pass time_pass(const scene::Scene& scene, const PassRequest& request, Detector& detector,
                process::ProgressWriter& progress) {
-  Input input(scene, is_of_steps(request.asked.question));
+  Input input(scene, is_of_steps(request.asked.question), detector.needs_vertices());
   ContactSet contacts;
   Pass out;
   CpuBook cpu(request.threads, request.children);

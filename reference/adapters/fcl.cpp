@@ -28,7 +28,6 @@
 // - The Replace calls fit boxes to the new vertices; the Update calls would fit them to old and new
 //   ones, for continuous collision.
 #include <fcl/config.h>
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/AABB.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
@@ -44,14 +43,10 @@
 #include "core/types/shared_corners.h"
 #include "reference/adapters/adapters.h"
 #include "reference/adapters/body_pair_detector.h"
+#include "reference/adapters/fcl_model.h"
 
 namespace contactcheck::adapters {
 namespace {
-
-void require_ok(int code, const char* call) {
-  if (code == fcl::BVH_OK) return;
-  throw std::runtime_error(std::string("FCL's ") + call + " returned " + std::to_string(code));
-}
 
 /// FCL has no notion of neighbours: their contacts, beyond what they share, it cannot tell.
 Semantics fcl_semantics(bool self) {
@@ -145,14 +140,7 @@ class FclBody {
  public:
   FclBody(const TriangleMesh& mesh, FclSettings settings) : refit_(settings.refit) {
     model_.bv_splitter = std::make_shared<fcl::detail::BVSplitter<BV>>(settings.split);
-    std::vector<fcl::Triangle> triangles;
-    triangles.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-    const int triangle_count = static_cast<int>(mesh.triangles.size());
-    const int vertex_count = static_cast<int>(mesh.vertices.size());
-    require_ok(model_.beginModel(triangle_count, vertex_count), "beginModel");
-    require_ok(model_.addSubModel(mesh.vertices, triangles), "addSubModel");
-    require_ok(model_.endModel(), "endModel");
+    build_model(model_, mesh);
   }
 
   /// One by one: replaceSubModel wants a vector of its own, which would be a copy more.

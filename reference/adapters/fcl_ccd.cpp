@@ -15,7 +15,6 @@
 //   vertices replaced from then on: elsewhere the start is an update, too.
 // - Triangles in contact at the start are found only where a vertex or two edges touch.
 #include <fcl/config.h>
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/AABB.h>
 #include <fcl/math/bv/utility.h>
 #include <fcl/narrowphase/detail/traversal/collision/mesh_continuous_collision_traversal_node.h>
@@ -32,30 +31,17 @@
 #include "core/types/check.h"
 #include "reference/adapters/adapters.h"
 #include "reference/adapters/body_pair_detector.h"
+#include "reference/adapters/fcl_model.h"
 
 namespace contactcheck::adapters {
 namespace {
 
 using Box = fcl::AABBd;
 
-void require_ok(int code, const char* call) {
-  if (code == fcl::BVH_OK) return;
-  throw std::runtime_error(std::string("FCL's ") + call + " returned " + std::to_string(code));
-}
-
 /// One body: its hierarchy, over the step of the last update.
 class MovingBody {
  public:
-  explicit MovingBody(const TriangleMesh& mesh) {
-    std::vector<fcl::Triangle> triangles;
-    triangles.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-    require_ok(model_.beginModel(static_cast<int>(mesh.triangles.size()),
-                                 static_cast<int>(mesh.vertices.size())),
-               "beginModel");
-    require_ok(model_.addSubModel(mesh.vertices, triangles), "addSubModel");
-    require_ok(model_.endModel(), "endModel");
-  }
+  explicit MovingBody(const TriangleMesh& mesh) { build_model(model_, mesh); }
 
   void update(std::span<const Vec3> start, std::span<const Vec3> end) {
     CONTACTCHECK_INVARIANT(static_cast<int>(start.size()) == model_.num_vertices &&

@@ -35,7 +35,9 @@ class MemoryFile {
   int fd_;
 };
 
-/// Bytes that a worker may write on both streams before its supervisor ends it.
+/// Bytes that a worker may write on both streams before its supervisor ends it: they are files in
+/// memory, which no other limit counts. A library that prints a line for every contact stays far
+/// below.
 inline constexpr std::uint64_t kWorkerOutputLimit = std::uint64_t{64} << 20;
 
 /// A running worker. Its standard input is empty; its standard output and error are private files,

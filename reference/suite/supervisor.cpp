@@ -20,8 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
-// Of a worker's two streams together: they are files in memory, which no other limit counts. A
-// library that prints a line for every contact stays far below.
 // For a worker whose answer is complete: destructors and exit handlers of libraries may hang.
 constexpr double kSecondsToLeave = 5.0;
 // Without a step of the suite's own code, however short the limit of one call: an exact judgement

@@ -1,5 +1,6 @@
 #include "reference/timing/timing.h"
 
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>

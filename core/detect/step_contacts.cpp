@@ -10,6 +10,8 @@
 namespace contactcheck {
 namespace {
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 /// The places of `items` in the order of what they belong to, as offsets and a list.
 void group(const std::vector<std::array<std::uint32_t, 3>>& items, std::size_t groups,
            std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& members) {
@@ -118,6 +120,9 @@ void StepContacts::enter(std::uint32_t body_a, std::uint32_t body_b, ContactSet&
   flush(out);
   entered_ = true;
   pair_ = {body_a, body_b};
+  // Of contact of a body with itself nobody asks the time.
+  const auto before = first_.find({body_a, body_b});
+  until_ = body_a == body_b ? -1.0 : before == first_.end() ? kNever : before->second;
   frame_ = 0.5 * velocities_[body_a] + 0.5 * velocities_[body_b];
   // A difference from a coordinate then never overflows.
   constexpr double kFastest = 1e150;
@@ -127,10 +132,12 @@ void StepContacts::enter(std::uint32_t body_a, std::uint32_t body_b, ContactSet&
 
 void StepContacts::flush(ContactSet& out) {
   if (!entered_) return;
-  at_start_.flush([&](std::uint32_t a, std::uint32_t b) {
-    out.impact_triangles.push_back({pair_[0], pair_[1], a, b});
-    note_time({pair_[0], pair_[1]}, 0.0);
+  const auto [a, b] = pair_;
+  at_start_.flush([&](std::uint32_t i, std::uint32_t j) {
+    out.impact_triangles.push_back({a, b, i, j});
+    until_ = 0.0;
   });
+  if (a != b && until_ < kNever) first_[{a, b}] = until_;
 }
 
 // Where two points meet at t they do so in the frame that moves by t w, for any w. There a corner's
@@ -209,7 +216,8 @@ void StepContacts::test_vertices(std::uint32_t body, std::uint32_t triangle, con
     const Impact impact =
         find_impact({ImpactKind::vertex_triangle,
                      {*of.start[i], *with.start[0], *with.start[1], *with.start[2]},
-                     {*of.end[i], *with.end[0], *with.end[1], *with.end[2]}});
+                     {*of.end[i], *with.end[0], *with.end[1], *with.end[2]}},
+                    until_);
     if (impact.contact) meet(corners[i], impact.earliest);
   }
 }
@@ -242,15 +250,11 @@ void StepContacts::test_edges(std::uint32_t body_a, std::uint32_t a, const Movin
       ++tested_;
       const Impact impact = find_impact({ImpactKind::edge_edge,
                                          {*p.start[i], *p.start[to], *q.start[j], *q.start[end]},
-                                         {*p.end[i], *p.end[to], *q.end[j], *q.end[end]}});
+                                         {*p.end[i], *p.end[to], *q.end[j], *q.end[end]}},
+                                        until_);
       if (impact.contact) meet(edge_a, edge_b, impact.earliest);
     }
   }
-}
-
-void StepContacts::note_time(BodyPair bodies, double time) {
-  const auto [place, is_new] = first_.emplace(bodies, time);
-  if (!is_new) place->second = std::min(place->second, time);
 }
 
 void StepContacts::add(const ElementPair& candidate, ContactSet& out) {
@@ -260,28 +264,27 @@ void StepContacts::add(const ElementPair& candidate, ContactSet& out) {
   if (!p.box.overlaps(q.box) || separated(p, q)) return;
   at_start_.add({a, b, {}}, [&](std::uint32_t i, std::uint32_t j) {
     out.impact_triangles.push_back({pair_[0], pair_[1], i, j});
-    note_time({pair_[0], pair_[1]}, 0.0);
+    until_ = 0.0;
   });
-  const BodyPair bodies{body_a, body_b};
   const auto triangles_at = [](const std::vector<std::uint32_t>& begin,
                                const std::vector<std::uint32_t>& members, std::uint32_t of) {
     return std::span(members).subspan(begin[of], begin[of + 1] - begin[of]);
   };
   const Elements &of_a = *bodies_[body_a], &of_b = *bodies_[body_b];
   test_vertices(body_a, a, p, body_b, b, q, [&](std::uint32_t vertex, double time) {
-    note_time(bodies, time);
+    until_ = std::min(until_, time);
     out.impact_vertices.push_back({body_a, body_b, vertex, b});
     for (const std::uint32_t t : triangles_at(of_a.vertex_begin, of_a.vertex_triangles, vertex))
       out.impact_triangles.push_back({body_a, body_b, t, b});
   });
   test_vertices(body_b, b, q, body_a, a, p, [&](std::uint32_t vertex, double time) {
-    note_time(bodies, time);
+    until_ = std::min(until_, time);
     out.impact_vertices.push_back({body_b, body_a, vertex, a});
     for (const std::uint32_t t : triangles_at(of_b.vertex_begin, of_b.vertex_triangles, vertex))
       out.impact_triangles.push_back({body_a, body_b, a, t});
   });
   test_edges(body_a, a, p, body_b, b, q, [&](std::uint32_t e, std::uint32_t f, double time) {
-    note_time(bodies, time);
+    until_ = std::min(until_, time);
     out.impact_edges.push_back({body_a, body_b, e, f});
     for (const std::uint32_t s : triangles_at(of_a.edge_begin, of_a.edge_triangles, e))
       for (const std::uint32_t t : triangles_at(of_b.edge_begin, of_b.edge_triangles, f))

@@ -86,16 +86,16 @@ class StepContacts {
   template <typename Meet>
   void test_edges(std::uint32_t body_a, std::uint32_t a, const Moving& p, std::uint32_t body_b,
                   std::uint32_t b, const Moving& q, Meet&& meet);
-  void note_time(BodyPair bodies, double time);
 
   std::vector<std::shared_ptr<const Elements>> bodies_;
   std::vector<std::span<const Vec3>> start_, end_;  // per body
   std::vector<Vec3> velocities_;                    // per body
   std::array<std::uint32_t, 2> pair_ = {};          // bodies of the candidates that come
   bool entered_ = false;
-  Vec3 frame_ = Vec3::Zero();  // the velocity of the frame of their boxes
-  ExactPairs at_start_;        // tests them at t = 0
-  std::map<BodyPair, double> first_;
+  Vec3 frame_ = Vec3::Zero();         // the velocity of the frame of their boxes
+  ExactPairs at_start_;               // tests them at t = 0
+  std::map<BodyPair, double> first_;  // times of the pairs that were entered before
+  double until_ = 0.0;  // of this pair the first time so far: later ones need not be certified
   std::uint64_t tested_ = 0;
 };
 

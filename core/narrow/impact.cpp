@@ -1,5 +1,7 @@
 #include "core/narrow/impact.h"
 
+#include <limits>
+
 #include "core/narrow/impact_filter.h"
 #include "core/narrow/triangle_triangle.h"
 
@@ -17,7 +19,11 @@ bool meet_at_start(const ImpactQuery& query) {
 }  // namespace
 
 Impact find_impact(const ImpactQuery& query) {
-  const FilteredImpact filtered = filter_impact(query);
+  return find_impact(query, std::numeric_limits<double>::infinity());
+}
+
+Impact find_impact(const ImpactQuery& query, double until) {
+  const FilteredImpact filtered = filter_impact(query, until);
   if (filtered.verdict == FilterVerdict::apart) return {};
   if (filtered.verdict == FilterVerdict::contact)
     return {true, false, filtered.earliest, filtered.latest};

@@ -11,6 +11,11 @@ namespace contactcheck {
 /// @pre finite coordinates; the processor rounds to nearest and does not flush denormals to zero
 Impact find_impact(const ImpactQuery& query);
 
+/// The same for whoever looks for the first of many contacts: a time that is certainly after
+/// `until` need not be certified, and its interval may be wider than kImpactTimeWidth. Half the
+/// time of most contacts goes into that.
+Impact find_impact(const ImpactQuery& query, double until);
+
 /// The exact path alone, without a filter: slow.
 /// @pre finite coordinates
 Impact find_impact_exact(const ImpactQuery& query);

@@ -395,9 +395,9 @@ FilteredImpact narrowed(const ImpactQuery& query, double low, double high) {
 
 }  // namespace
 
-FilteredImpact filter_impact(const ImpactQuery& query) {
+FilteredImpact filter_impact(const ImpactQuery& query, double until) {
   const FilteredImpact answer = Filter<double>(query).decide();
-  if (answer.verdict != FilterVerdict::contact) return answer;
+  if (answer.verdict != FilterVerdict::contact || answer.earliest > until) return answer;
   return narrowed(query, answer.earliest, answer.latest);
 }
 

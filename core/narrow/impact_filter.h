@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "core/types/impact.h"
 
@@ -17,8 +18,10 @@ struct FilteredImpact {
   double earliest = 0, latest = 0;
 };
 
-/// Never wrong; `undecided` where the bounds in impact_filter.cpp do not suffice.
+/// Never wrong; `undecided` where the bounds in impact_filter.cpp do not suffice. The interval of a
+/// first time that is certainly after `until` may be wider than kImpactTimeWidth.
 /// @pre finite coordinates; the processor rounds to nearest and does not flush denormals to zero
-FilteredImpact filter_impact(const ImpactQuery& query);
+FilteredImpact filter_impact(const ImpactQuery& query,
+                             double until = std::numeric_limits<double>::infinity());
 
 }  // namespace contactcheck

@@ -97,6 +97,34 @@ TEST(ImpactFilter, DecidesPlainCrossings) {
   EXPECT_GE(contacts, 1970);
 }
 
+// Whoever looks for the first of many contacts gets the same answers, and times after the first one
+// so far within wider intervals.
+TEST(FindImpact, TimesAreCertifiedUpToALimit) {
+  std::mt19937_64 random(57);
+  std::uniform_real_distribution<double> share(0, 1);
+  int certified = 0, wide = 0;
+  for (int family = 0; family < kImpactFamilies - 1; ++family)
+    for (int i = 0; i < 150; ++i) {
+      const ImpactQuery query = draw_impact_query(random, static_cast<ImpactFamily>(family));
+      const Impact whole = find_impact(query);
+      for (const double until : {-1.0, 0.0, share(random), 1.0, whole.earliest}) {
+        const Impact limited = find_impact(query, until);
+        ASSERT_EQ(limited.contact, whole.contact) << text(query);
+        ASSERT_EQ(limited.starts_in_contact, whole.starts_in_contact) << text(query);
+        ASSERT_LE(limited.earliest, whole.latest) << text(query);
+        ASSERT_GE(limited.latest, whole.earliest) << text(query);
+        if (limited.latest - limited.earliest <= kImpactTimeWidth) {
+          certified += limited.contact;
+          continue;
+        }
+        ++wide;
+        ASSERT_GT(limited.earliest, until) << text(query);
+      }
+    }
+  EXPECT_GT(certified, 1000);
+  EXPECT_GT(wide, 500);
+}
+
 TEST(ImpactFilter, DecidesNearlyAllRandomQueries) {
   std::mt19937_64 random(56);
   int contacts = 0, undecided = 0;

@@ -155,6 +155,45 @@ TEST_F(Timing, AsksEveryFrameOnceInOrder) {
   EXPECT_GT(samples[1].cpu, 0.0);
 }
 
+// Writes down how many vertices it is given of each body, in frames and at both ends of steps.
+class Receiver : public Diary {
+ public:
+  explicit Receiver(bool vertices) : Diary(vertices) {}
+  void update(const Frame& frame) override { note(frame); }
+  void update_step(const Step& step) override {
+    note(step.start);
+    note(step.end);
+  }
+  void query(Question, ContactSet&) override {}
+
+  std::vector<std::size_t> vertices, nodes;
+
+ private:
+  void note(const Frame& frame) {
+    for (const BodyState& body : frame.bodies) {
+      vertices.push_back(body.vertices.size());
+      nodes.push_back(body.nodes.size());
+    }
+  }
+};
+
+// What nobody has mapped must not be there to be taken for vertices.
+TEST_F(Timing, OneThatNeedsNoVerticesIsGivenNone) {
+  for (const bool needs : {true, false})
+    for (const Question question : {Question::kBody, Question::kImpacts}) {
+      SCOPED_TRACE(name_of(question));
+      const judge::Asked asked = {question, true, {}};
+      const std::vector<judge::AnswerFingerprint> prints(3, judge::fingerprint_of({}, asked));
+      Receiver detector(needs);
+      time_pass(scene_, {0, asked, {0, 1}, &prints}, detector, progress_);
+      const BodyShape& shape = *scene_.bodies[0].shape;
+      const std::size_t given = question == Question::kBody ? 4 : 8;
+      EXPECT_EQ(detector.vertices,
+                std::vector<std::size_t>(given, needs ? shape.mesh.vertices.size() : 0));
+      EXPECT_EQ(detector.nodes, std::vector<std::size_t>(given, shape.node_count()));
+    }
+}
+
 TEST_F(Timing, OfColdFramesThoseAlone) {
   Diary detector;
   CacheSweep sweep(1 << 12);

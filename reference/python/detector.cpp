@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <mutex>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/types/check.h"
+#include "core/types/mesh_edges.h"
 #include "reference/adapters/register.h"
 #include "reference/oracle/floating_point.h"
 #include "reference/python/arrays.h"
@@ -81,15 +83,16 @@ class PyDetector {
       if (!asked.empty()) detector_->expect(asked);
       detector_->prepare(bodies_);
       state_ = State::kPrepared;
-      nodes_.assign(bodies_.size(), {});
-      vertices_.assign(bodies_.size(), {});
+      start_ = end_ = {};
+      edges_.clear();
+      for (const Body& body : bodies_)
+        edges_.push_back(answers_steps() ? mesh_edges(body.shape->mesh.triangles) : MeshEdges());
     });
   }
 
-  /// A frame that is refused, even while it is read, leaves none to ask about.
   void forget_frame() {
     guarded([&] {
-      if (state_ == State::kUpdated) state_ = State::kPrepared;
+      if (state_ > State::kPrepared) state_ = State::kPrepared;
     });
   }
 
@@ -102,47 +105,46 @@ class PyDetector {
   void update(std::vector<std::vector<Vec3>> positions, double time) {
     guarded([&] {
       require(State::kPrepared, "prepare() comes before update()");
-      if (positions.size() != bodies_.size())
-        throw InputError("positions: " + std::to_string(positions.size()) + " arrays for " +
-                         std::to_string(bodies_.size()) + " bodies");
-      frame_.bodies.resize(bodies_.size());
-      for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const BodyShape& shape = *bodies_[i].shape;
-        const std::size_t wanted = shape.lattice ? shape.node_count() : shape.given_vertex_count();
-        if (positions[i].size() != wanted)
-          throw InputError("positions[" + std::to_string(i) + "] has " +
-                           std::to_string(positions[i].size()) + " rows; \"" + bodies_[i].name +
-                           "\" has " + std::to_string(wanted) +
-                           (shape.lattice ? " nodes" : " vertices"));
-        if (!shape.lattice) positions[i] = shape.given.kept(std::move(positions[i]));
-      }
-      for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const BodyShape& shape = *bodies_[i].shape;
-        std::swap(nodes_[i], positions[i]);
-        frame_.bodies[i] = {nodes_[i], {}};
-        if (!made().needs_vertices()) continue;
-        if (shape.lattice) {
-          vertices_[i].resize(shape.mesh.vertices.size());
-          map_body(shape, nodes_[i], vertices_[i]);
-        }
-        frame_.bodies[i].vertices = shape.lattice ? vertices_[i] : nodes_[i];
-      }
-      frame_.time = time;
-      made().update(frame_);
-      ++frame_.index;
+      take(positions, "positions", start_);
+      start_.frame.time = time;
+      made().update(start_.frame);
+      ++start_.frame.index;
       state_ = State::kUpdated;
     });
-    const std::lock_guard lock(spare_mutex_);
-    spare_ = std::move(positions);
+    keep_spare(std::move(positions));
+  }
+
+  void update_step(std::vector<std::vector<Vec3>> start, std::vector<std::vector<Vec3>> end,
+                   double start_time, double end_time) {
+    guarded([&] {
+      require(State::kPrepared, "prepare() comes before update_step()");
+      if (!answers_steps())
+        throw InputError(spec_.name + " does not answer about steps between two frames");
+      if (!(start_time < end_time))
+        throw InputError("the end of a step comes after its start: start_time=" +
+                         std::to_string(start_time) + ", end_time=" + std::to_string(end_time));
+      take(start, "start", start_);
+      take(end, "end", end_);
+      start_.frame.time = start_time;
+      end_.frame.time = end_time;
+      end_.frame.index = start_.frame.index + 1;
+      made().update_step({start_.frame, end_.frame});
+      ++start_.frame.index;
+      state_ = State::kStepped;
+    });
+    keep_spare(std::move(start));
   }
 
   void query(const std::string& name, ContactSet& out) {
     guarded([&] {
       const Question question = question_named(name);
-      if (is_of_steps(question))
-        throw InputError("the question \"" + name +
-                         "\" is about a step between two frames; run() asks it of scenes");
-      require(State::kUpdated, "update() comes before query()");
+      const bool of_step = is_of_steps(question);
+      require(State::kPrepared,
+              of_step ? "update_step() comes before query()" : "update() comes before query()");
+      if (state_ != (of_step ? State::kStepped : State::kUpdated))
+        throw InputError("the question \"" + name + "\" is about a " +
+                         (of_step ? "step: update_step()" : "frame: update()") +
+                         " comes before query()");
       if (!made().semantics().answers(question))
         throw InputError(spec_.name + " does not answer the question \"" + name + "\"");
       out.clear();
@@ -152,12 +154,66 @@ class PyDetector {
     });
   }
 
+  /// The ends of an edge, in the order of their numbers in the mesh as it was given.
+  std::array<std::uint32_t, 2> ends_of(std::uint32_t body, std::uint32_t edge) const {
+    const auto& [a, b] = edges_[body].edges[edge];
+    const GivenVertices& given = bodies_[body].shape->given;
+    return {given.number_of(a), given.number_of(b)};
+  }
+
   std::vector<std::string> notes() {
     return guarded([&] { return detector_ ? detector_->notes() : std::vector<std::string>(); });
   }
 
  private:
-  enum class State { kNone, kPrepared, kUpdated };
+  enum class State { kNone, kPrepared, kUpdated, kStepped };
+
+  /// A frame that is held until the next one comes in its place.
+  struct Held {
+    std::vector<std::vector<Vec3>> nodes, vertices;
+    Frame frame;
+  };
+
+  bool answers_steps() {
+    const Semantics semantics = made().semantics();
+    return std::any_of(semantics.questions.begin(), semantics.questions.end(), is_of_steps);
+  }
+
+  /// Leaves in `positions` those that were held before. `name`: of the argument.
+  void take(std::vector<std::vector<Vec3>>& positions, const std::string& name, Held& held) {
+    if (positions.size() != bodies_.size())
+      throw InputError(name + ": " + std::to_string(positions.size()) + " arrays for " +
+                       std::to_string(bodies_.size()) + " bodies");
+    held.nodes.resize(bodies_.size());
+    held.vertices.resize(bodies_.size());
+    held.frame.bodies.resize(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const BodyShape& shape = *bodies_[i].shape;
+      const std::size_t wanted = shape.lattice ? shape.node_count() : shape.given_vertex_count();
+      if (positions[i].size() != wanted)
+        throw InputError(name + "[" + std::to_string(i) + "] has " +
+                         std::to_string(positions[i].size()) + " rows; \"" + bodies_[i].name +
+                         "\" has " + std::to_string(wanted) +
+                         (shape.lattice ? " nodes" : " vertices"));
+      if (!shape.lattice) positions[i] = shape.given.kept(std::move(positions[i]));
+    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const BodyShape& shape = *bodies_[i].shape;
+      std::swap(held.nodes[i], positions[i]);
+      held.frame.bodies[i] = {held.nodes[i], {}};
+      if (!made().needs_vertices()) continue;
+      if (shape.lattice) {
+        held.vertices[i].resize(shape.mesh.vertices.size());
+        map_body(shape, held.nodes[i], held.vertices[i]);
+      }
+      held.frame.bodies[i].vertices = shape.lattice ? held.vertices[i] : held.nodes[i];
+    }
+  }
+
+  void keep_spare(std::vector<std::vector<Vec3>> positions) {
+    const std::lock_guard lock(spare_mutex_);
+    spare_ = std::move(positions);
+  }
 
   Detector& made() {
     if (!detector_) throw InputError(spec_.name + " failed before; prepare() begins anew");
@@ -172,6 +228,8 @@ class PyDetector {
     for (VertexInBody& v : out.vertices) number(v.body, v.vertex);
     for (NearPair& p : out.near) number(p.body, p.vertex);
     for (NearPair& p : out.self_near) number(p.body, p.vertex);
+    for (NearPair& p : out.impact_vertices) number(p.body, p.vertex);
+    for (NearPair& p : out.self_impact_vertices) number(p.body, p.vertex);
     for (VertexContact& c : out.vertex_contacts) number(c.where.body, c.where.vertex);
   }
 
@@ -184,8 +242,8 @@ class PyDetector {
   std::vector<std::vector<Vec3>> spare_;
   DetectorSpec spec_;
   std::vector<Body> bodies_;
-  std::vector<std::vector<Vec3>> nodes_, vertices_;
-  Frame frame_;
+  std::vector<MeshEdges> edges_;        // per body, of a detector that answers about steps
+  Held start_, end_;                    // the frame, or both ends of the step
   std::unique_ptr<Detector> detector_;  // destroyed before what it looks at
   State state_ = State::kNone;
 };
@@ -207,7 +265,7 @@ std::vector<Quad> rows_of(const Pairs& pairs, const Own& own) {
 }
 
 // The lists of the pipe's answer (reference/plugin/README.md), by the same names.
-py::dict lists_of(const ContactSet& found) {
+py::dict lists_of(const ContactSet& found, const PyDetector& detector) {
   std::vector<std::array<std::uint32_t, 2>> bodies;
   for (const BodyPair& p : found.bodies) bodies.push_back({p.a, p.b});
   for (const std::uint32_t body : found.self_bodies) bodies.push_back({body, body});
@@ -231,7 +289,36 @@ py::dict lists_of(const ContactSet& found) {
       found.vertex_contacts, [&](const VertexContact& c) { return vertex(c.where); });
   out["vertex_depths"] = column<double>(found.vertex_contacts, depth);
   out["vertex_normals"] = table<double, 3>(found.vertex_contacts, normal);
+  const auto edges = [&](const Quad& row) {
+    const auto first = detector.ends_of(row[0], row[2]), second = detector.ends_of(row[1], row[3]);
+    return std::array{row[0], row[1], first[0], first[1], second[0], second[1]};
+  };
+  out["impacts"] = table<std::int32_t, 2>(found.impacts, [](const BodyImpact& i) {
+    return std::array{i.bodies.a, i.bodies.b};
+  });
+  out["impact_times"] =
+      column<double>(found.impacts, [](const BodyImpact& i) { return i.time.value_or(-1.0); });
+  out["impact_triangles"] =
+      table<std::int32_t, 4>(rows_of(found.impact_triangles, std::vector<SelfPair>()), same);
+  out["impact_vertices"] =
+      table<std::int32_t, 4>(rows_of(found.impact_vertices, found.self_impact_vertices), same);
+  out["impact_edges"] =
+      table<std::int32_t, 6>(rows_of(found.impact_edges, found.self_impact_edges), edges);
   return out;
+}
+
+// A frame that is refused, even while it is read, leaves none to ask about.
+std::vector<std::vector<Vec3>> read_positions(PyDetector& detector, const py::tuple& positions,
+                                              const std::string& name) {
+  {
+    const py::gil_scoped_release released;
+    detector.forget_frame();
+  }
+  std::vector<std::vector<Vec3>> arrays = detector.spare();
+  arrays.resize(positions.size());
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+    read_points(positions[i], name + "[" + std::to_string(i) + "]", arrays[i]);
+  return arrays;
 }
 
 }  // namespace
@@ -245,16 +332,17 @@ void add_detector(py::module_& module) {
       .def("prepare", &PyDetector::prepare, Released())
       .def("update",
            [](PyDetector& self, const py::tuple& positions, double time) {
-             {
-               const py::gil_scoped_release released;
-               self.forget_frame();
-             }
-             std::vector<std::vector<Vec3>> arrays = self.spare();
-             arrays.resize(positions.size());
-             for (std::size_t i = 0; i < arrays.size(); ++i)
-               read_points(positions[i], "positions[" + std::to_string(i) + "]", arrays[i]);
+             auto arrays = read_positions(self, positions, "positions");
              const py::gil_scoped_release released;
              self.update(std::move(arrays), time);
+           })
+      .def("update_step",
+           [](PyDetector& self, const py::tuple& start, const py::tuple& end, double start_time,
+              double end_time) {
+             auto first = read_positions(self, start, "start");
+             auto last = read_positions(self, end, "end");
+             const py::gil_scoped_release released;
+             self.update_step(std::move(first), std::move(last), start_time, end_time);
            })
       .def("query",
            [](PyDetector& self, const std::string& question) {
@@ -263,7 +351,7 @@ void add_detector(py::module_& module) {
                const py::gil_scoped_release released;
                self.query(question, found);
              }
-             return lists_of(found);
+             return lists_of(found, self);
            })
       .def("notes", &PyDetector::notes, Released());
   module.def("detectors", [] {

@@ -28,19 +28,19 @@ import numpy as np
 
 from . import _binding
 from ._binding import InputError, RefusedInput, Unavailable, __version__
-from ._run import Results, Scene, Verdict, gate, run
+from ._run import Check, Results, Scene, Verdict, check, gate, run
 from ._serve import Body, Frame, LatticeArrays
 
 __all__ = [
-    "Body", "Depth", "Detector", "Distance", "FirstContacts", "Frame", "Impact", "InputError",
+    "Body", "Check", "Depth", "Detector", "Distance", "FirstContacts", "Frame", "Impact", "InputError",
     "Inside", "Lattice", "LatticeArrays", "PointDistances", "RefusedInput", "Results", "Scene",
-    "SelfContacts", "Unavailable", "Verdict", "__version__", "check_mesh", "contacts", "depth",
+    "SelfContacts", "Unavailable", "Verdict", "__version__", "check", "check_mesh", "contacts", "depth",
     "detectors", "distance", "gate", "impact", "inside", "point_distances", "run",
     "self_contacts",
 ]
 
-for _public in (Body, Frame, InputError, LatticeArrays, RefusedInput, Results, Scene, Unavailable,
-                Verdict, gate, run):
+for _public in (Body, Check, Frame, InputError, LatticeArrays, RefusedInput, Results, Scene,
+                Unavailable, Verdict, check, gate, run):
     _public.__module__ = __name__
 
 
@@ -373,7 +373,8 @@ def _shape(body: Any, name: str) -> _binding.Shape:
 class Detector:
     """A detector of contactcheck, by name and options as in `contactcheck list`.
 
-    One call of prepare() for some bodies, then for every frame update() and query(). Not exact
+    One call of prepare() for some bodies, then for every frame update() and query(), or for every
+    step from a frame to the next update_step() and query(). Not exact
     unless `declares["exact"]` says so, and then at its `levels`. Each may be used by one thread at
     a time; others wait.
 
@@ -420,8 +421,32 @@ class Detector:
         """
         self._detector.update(tuple(positions), time)
 
+    def update_step(
+        self,
+        start: Sequence[Any],
+        end: Sequence[Any],
+        start_time: float = 0.0,
+        end_time: float = 1.0,
+    ) -> None:
+        """The bodies at both ends of a step, each as in update(); steps come in any order.
+
+        In between every vertex moves on a straight line at constant speed. For detectors that
+        answer the questions impacts or self-impacts, such as ffd-lazy.
+
+        >>> V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]]
+        >>> detector = Detector("ffd-lazy")
+        >>> detector.prepare([(V, F), (V, F)])
+        >>> detector.update_step([V, V + [0, 0, 1]], [V, V - [0, 0, 3]])
+        >>> found = detector.query("impacts")
+        >>> found["impacts"].tolist(), found["impact_times"].round(9).tolist()
+        ([[0, 1]], [0.25])
+        """
+        self._detector.update_step(tuple(start), tuple(end), start_time, end_time)
+
     def query(self, question: str = "triangles") -> dict[str, np.ndarray]:
         """What touches in the frame: question triangles, body, cells, contacts or self.
+
+        Of a step: impacts, or self-impacts for bodies with themselves.
 
         All lists are there, empty where the detector has none; int32, ascending, without repeats:
 
@@ -429,7 +454,10 @@ class Detector:
         (k, 3): body, body that holds it, vertex; near (k, 4): body, other body, vertex, triangle.
         The question self has body a = body b. The question contacts also gives piece_contacts
         (k, 4) with piece_depths (k,) and piece_normals (k, 3): moving b by depth * normal separates
-        them; and vertex_contacts (k, 3) with vertex_depths and vertex_normals: the way out.
+        them; and vertex_contacts (k, 3) with vertex_depths and vertex_normals: the way out. Of a
+        step: impacts (k, 2), two bodies, with impact_times (k,), fractions of the step, below 0 if
+        not known; impact_triangles (k, 4); impact_vertices (k, 4): body, other body, vertex,
+        triangle; impact_edges (k, 6): body a, body b, the ends of an edge of a, of b.
         """
         return self._detector.query(question)
 

@@ -33,21 +33,25 @@ def program() -> str:
     found = found or (str(built) if built.is_file() else shutil.which("contactcheck"))
     if not found:
         raise Unavailable("the program contactcheck is not on the PATH; Debian's package contactcheck has it")
-    return found
+    return os.path.abspath(found)
 
 
 def _call(
-    words: Sequence[Any], server: Optional[_serve.Server] = None, quiet: bool = True
+    words: Sequence[Any],
+    server: Optional[_serve.Server] = None,
+    quiet: bool = True,
+    folder: Union[str, os.PathLike, None] = None,
 ) -> subprocess.CompletedProcess:
     """Runs the program; bad usage and bad input raise its sentence. Ctrl-C ends it in its own way.
 
-    Exit code 1 (a check fails) and 3 (a detector's status is error) are results.
+    Exit code 1 (a check fails) and 3 (a detector's status is error) are results. `folder`: in which
+    it runs.
     """
     # Files and no pipes: nobody reads while the server waits.
     with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as error:
         try:
             process = subprocess.Popen(
-                [program(), *map(str, words)], stdin=subprocess.DEVNULL,
+                [program(), *map(str, words)], stdin=subprocess.DEVNULL, cwd=folder,
                 stdout=out if quiet else None, stderr=error if quiet else None,
                 env=server.environment() if server else None,
                 start_new_session=True,  # so that Ctrl-C reaches it by us, once
@@ -353,7 +357,7 @@ def run(
                 words += ["--detector", str(getattr(detector, "name", detector))]
                 continue
             for name in ("prepare", "update", "query", "declares"):
-                if not hasattr(detector, name):
+                if not hasattr(detector, name) and not (name == "update" and hasattr(detector, "update_step")):
                     raise InputError(f"detectors: {detector!r} has no {name}; a name is wanted, or "
                                      "an object with prepare, update, query and declares")
             words += ["--detector-cmd", server.command(len(own))]
@@ -410,3 +414,71 @@ def gate(
                 failures.append({"rule": case.get("classname"), "row": case.get("name"),
                                  "reason": failure.get("message")})
     return Verdict(called.returncode == 0, failures, called.stdout)
+
+
+class Check(NamedTuple):
+    """What check() answers, in the words of `contactcheck check --json-lines`."""
+
+    clean: bool  #: no frame, and no step, has a contact that is not allowed
+    frames: list  #: dictionaries: frame, file, contacts, self; of frames that are not clean
+    steps: list  #: dictionaries: step, paths, contacts; of steps with contacts, allowed or not
+    summary: dict  #: bad_frames, first, not_judged, between, ...
+
+
+def check(
+    bodies: Sequence[Any],
+    between: bool = False,
+    allow: Union[str, Sequence[str]] = (),
+    weld: bool = False,
+    out: Union[str, os.PathLike, None] = None,
+) -> Check:
+    """Which frames of a simulation have contacts, as `contactcheck check` says; exact.
+
+    `bodies`: files as on the command line (numbered meshes, a mesh and its point cache, a
+    recording), or pairs (frames, F), frames being (f, n, 3) or a list of (n, 3); one frame alone
+    is a body at rest. `between`: contact between frames, too, on straight paths from each frame to
+    the next. `allow`: "contact", "self", "depth=METRES", "impact". `weld`: vertices at one place in
+    the first frame are one. `out`: the folder of a page; None: none is kept.
+
+    >>> V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]]
+    >>> found = check([([V + [0, 0, 1], V - [0, 0, 3]], F), ([V], F)], between=True)
+    >>> found.clean, found.frames, found.steps[0]["contacts"][0]["first"]["time"]["lower"] <= 0.25
+    (False, [], True)
+    """
+    allowed = [allow] if isinstance(allow, str) else list(allow)
+    words: list = ["check", "--json-lines"] + ["--between"] * between + ["--weld"] * weld
+    for word in allowed:
+        words += ["--allow", word]
+    bodies = [bodies] if isinstance(bodies, (str, os.PathLike)) else list(bodies)
+    with tempfile.TemporaryDirectory(prefix="contactcheck-") as folder:
+        words += ["--out", os.path.join(folder, "out") if out is None else os.path.abspath(out)]
+        files = [os.path.abspath(body) for body in bodies if isinstance(body, (str, os.PathLike))]
+        if not files:
+            files = _frame_files(bodies, pathlib.Path(folder))
+        elif len(files) != len(bodies):
+            raise InputError("bodies: files or pairs (frames, F), not both")
+        called = _call([*words, "--", *files], folder=folder)
+    events = [json.loads(line) for line in called.stdout.splitlines()]
+
+    def named(name: str) -> list:
+        return [{key: value for key, value in event.items() if key != "event"}
+                for event in events if event["event"] == name]
+
+    summary = named("end")[0]
+    if out is None:
+        summary.pop("out", None)
+    return Check(called.returncode == 0, named("frame"), named("step"), summary)
+
+
+def _frame_files(bodies: Sequence[Any], folder: pathlib.Path) -> list[str]:
+    """Writes a numbered mesh for each body and frame; their names within the folder."""
+    names = []
+    for i, (frames, F) in enumerate(bodies):
+        if len(frames) == 0:
+            raise InputError(f"bodies[{i}] has no frame")
+        shape = _binding.Shape(frames[0], F, f"V of bodies[{i}], frame 0", f"F of bodies[{i}]")
+        for f, V in enumerate(frames):
+            name = f"body{i}.ply" if len(frames) == 1 else f"body{i}_{f:06d}.ply"
+            write_ply(folder / name, shape.positions(V, f"V of bodies[{i}], frame {f}"), shape.faces)
+            names.append(name)
+    return names

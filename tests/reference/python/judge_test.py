@@ -201,7 +201,7 @@ def test_a_detector_answers_as_on_the_command_line(bunnies, bunny_run):
             assert len(found["bodies"]) == (len(found["triangles"]) > 0)
 
 
-OF_STEPS = {"impacts", "self-impacts"}  # the module gives frames alone
+OF_STEPS = {"impacts", "self-impacts"}
 
 
 def test_every_detector_answers_its_questions_of_frames(bunnies):
@@ -223,7 +223,8 @@ def test_every_detector_answers_its_questions_of_frames(bunnies):
         for question in questions:
             answer = detector.query(question)
             for key, items in answer.items():
-                assert items.dtype == (np.float64 if "depth" in key or "normal" in key else np.int32)
+                floats = any(word in key for word in ("depth", "normal", "times"))
+                assert items.dtype == (np.float64 if floats else np.int32)
             assert len(answer["piece_contacts"]) == len(answer["piece_depths"]) == len(answer["piece_normals"])
             assert len(answer["vertex_contacts"]) == len(answer["vertex_normals"])
         assert detector.name == name and name in repr(detector)
@@ -245,3 +246,95 @@ def test_contacts_of_a_detector_part_the_bodies(bunnies):
     found = detector.query("contacts")
     assert len(found["piece_contacts"]) > 0
     assert np.allclose(np.linalg.norm(found["piece_normals"], axis=1), 1)
+
+
+def elements_that_meet(start, end, Fa, Fb):
+    """Of two bodies, by impact() over all pairs: vertices with faces, edges with edges, the first time."""
+    def of(kind, bodies, vertices):
+        found = contactcheck.impact(kind, *([[[where[b][v] for b, v in zip(bodies, row)] for row in vertices]
+                                             for where in (start, end)]))
+        return found.contact, found.earliest
+    vertices, first = set(), 2.0
+    for a, b, F in ((0, 1, Fb), (1, 0, Fa)):
+        rows = [(v, *t) for v in range(len(start[a])) for t in F]
+        contact, times = of("vertex-face", (a, b, b, b), rows)
+        vertices |= {(a, b, rows[i][0], i % len(F)) for i in np.flatnonzero(contact)}
+        first = min([first, *times[contact]])
+    sides = [sorted({tuple(sorted((t[i], t[i - 1]))) for t in F for i in range(3)}) for F in (Fa, Fb)]
+    rows = [(*e, *f) for e in sides[0] for f in sides[1]]
+    contact, times = of("edge-edge", (0, 0, 1, 1), rows)
+    return vertices, {(0, 1, *rows[i]) for i in np.flatnonzero(contact)}, min([first, *times[contact]])
+
+
+STEP_DETECTORS = ("ffd-lazy", "full-refit", "swept-aabb", "embree-swept")
+
+
+@pytest.mark.parametrize("name", STEP_DETECTORS)
+def test_steps_are_answered_exactly(name):
+    V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [9, 9, 9]], float)  # one that no triangle uses
+    F = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    used = V[:4]
+    detector = contactcheck.Detector(name)
+    detector.prepare([(V, F), (used, F)], ["impacts"])
+    start, end = [V, used + [0.3, 0.2, 2]], [V + [0, 0, 0.5], used + [0.1, 0.3, -0.5]]
+    for first, last in ((start, end), (end, start), (start, start), (start, end)):  # in any order
+        vertices, edges, time = elements_that_meet([first[0][:4], first[1]], [last[0][:4], last[1]], F, F)
+        detector.update_step(first, last, 2, 3)
+        found = detector.query("impacts")
+        assert {tuple(row) for row in found["impact_vertices"].tolist()} == vertices
+        assert {tuple(row) for row in found["impact_edges"].tolist()} == edges
+        moves = first is not last
+        assert found["impacts"].tolist() == ([[0, 1]] if moves else [])
+        assert len(found["impact_triangles"]) > 0 if moves else len(found["impact_triangles"]) == 0
+        if moves and first is start:
+            assert abs(found["impact_times"][0] - time) < 2**-39
+
+
+def test_vertices_of_a_step_are_numbered_as_given():
+    V = np.array([[5, 5, 5], [0, 0, 0], [1, 0, 0], [0, 1, 0]], float)  # nothing uses the first one
+    F = [[1, 2, 3]]
+    detector = contactcheck.Detector("swept-aabb")
+    detector.prepare([(V, F), (V + [0.2, 0.1, 1], F)])
+    detector.update_step([V, V + [0.2, 0.1, 1]], [V, V + [0.2, 0.1, -1]])
+    found = detector.query("impacts")
+    assert found["impact_vertices"].tolist() == [[1, 0, 1, 0]]
+    assert [1, 3] in found["impact_edges"][:, 4:].tolist() or [2, 3] in found["impact_edges"][:, 2:4].tolist()
+
+
+def test_a_body_meets_itself_within_a_step():
+    V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.1, 0.5], [1.2, 0.1, 0.5], [0.2, 1.1, 0.5]])
+    end = np.concatenate([V[:3], V[3:] - [0, 0, 1]])
+    detector = contactcheck.Detector("ffd-lazy")
+    detector.prepare([(V, [[0, 1, 2], [3, 4, 5]])], ["self-impacts"])
+    detector.update_step([V], [end])
+    found = detector.query("self-impacts")
+    assert found["impact_vertices"].tolist() == [[0, 0, 3, 0]]
+    assert all(row[:2] == [0, 0] for row in found["impact_edges"].tolist()) and len(found["impact_edges"]) > 0
+
+
+def test_frames_and_steps_are_asked_after_their_own_update():
+    V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float), [[0, 1, 2]]
+    detector = contactcheck.Detector("ffd-lazy")
+    with pytest.raises(contactcheck.InputError, match="prepare"):
+        detector.update_step([V, V], [V, V])
+    detector.prepare([(V, F), (V, F)])
+    with pytest.raises(contactcheck.InputError, match="update_step"):
+        detector.query("impacts")
+    detector.update([V, V + 3])
+    with pytest.raises(contactcheck.InputError, match="about a step: update_step"):
+        detector.query("impacts")
+    detector.update_step([V, V + 3], [V, V])
+    with pytest.raises(contactcheck.InputError, match="about a frame: update"):
+        detector.query("triangles")
+    with pytest.raises(contactcheck.InputError, match=r"end\[1\] has 2 rows"):
+        detector.update_step([V, V], [V, V[:2]])
+    with pytest.raises(contactcheck.InputError, match="update_step"):
+        detector.query("impacts")  # one that is refused leaves none
+    with pytest.raises(contactcheck.InputError, match="comes after its start"):
+        detector.update_step([V, V], [V, V], 1, 1)
+    with pytest.raises(contactcheck.InputError, match="finite"):
+        detector.update_step([V, V], [V, V + np.inf])
+    frames = contactcheck.Detector("fcl-aabb")
+    frames.prepare([(V, F), (V, F)])
+    with pytest.raises(contactcheck.InputError, match="does not answer about steps"):
+        frames.update_step([V, V], [V, V])

@@ -570,3 +570,74 @@ def commands():
                 yield (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
             except OSError:
                 pass
+
+
+SHEET = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float), [[0, 1, 2]]
+
+
+def falling(*heights):
+    return [V * 0.1 + [0.2, 0.2, height] for height in heights], F
+
+
+def test_check_finds_what_passes_between_frames():
+    bodies = [falling(2, 1, -1, -2), ([SHEET[0]], SHEET[1])]
+    assert contactcheck.check(bodies) == (True, [], [], {
+        "bad_frames": 0, "first": None, "not_judged": [
+            {"body": "body1", "level": "containment", "reason": "open (frame 0, edge of vertices 0 and 1)"}], "exit_code": 0})
+    found = contactcheck.check(bodies, between=True)
+    assert (found.clean, found.frames, [step["step"] for step in found.steps]) == (False, [], [1])
+    (contact,) = found.steps[0]["contacts"]
+    assert (contact["bodies"], contact["start"], contact["end"]) == (["body0", "body1"], "apart", "apart")
+    assert contact["first"]["time"]["lower"] <= 0.5 <= contact["first"]["time"]["upper"]
+    assert found.summary["between"]["with_impacts"] == 1
+    allowed = contactcheck.check(bodies, between=True, allow="impact")
+    assert allowed.clean and allowed.steps[0]["contacts"][0]["allowed"]
+
+
+def test_check_finds_contacts_of_frames_and_of_a_body_with_itself():
+    folded = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, -1], [0.2, 0.2, 1], [2, 2, 0]], float)
+    found = contactcheck.check([([folded + 9, folded + 9], [[0, 1, 2], [3, 4, 5]]), falling(1, 1)])
+    assert [frame["frame"] for frame in found.frames] == [0, 1] and found.frames[0]["self"][0]["body"] == "body0"
+    assert contactcheck.check([([folded], [[0, 1, 2], [3, 4, 5]]), falling(5, 4)], allow=["self"]).clean
+
+
+def test_check_takes_files_and_leaves_a_page(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    pathlib.Path("ball_0.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    pathlib.Path("wall.obj").write_text("v 0.2 0.2 -1\nv 0.2 0.2 1\nv 3 3 0\nf 1 2 3\n")
+    found = contactcheck.check(["ball_0.obj", pathlib.Path("wall.obj")], out="page")
+    assert not found.clean and found.frames[0]["contacts"][0]["bodies"] == ["ball_0", "wall"]
+    assert (tmp_path / "page" / "report.md").is_file() and found.summary["out"] == str(tmp_path / "page")
+
+
+@pytest.mark.parametrize("arguments,sentence", (
+    ({"bodies": [falling(1)], "between": True}, "here is one frame"),
+    ({"bodies": [([], F)]}, r"bodies\[0\] has no frame"),
+    ({"bodies": [falling(1), "wall.obj"]}, "not both"),
+    ({"bodies": [falling(1, 2)], "allow": "everything"}, "is not one of contact, self"),
+    ({"bodies": [([V, V[:2]], F)]}, "frame 1"),
+))
+def test_check_refuses_with_one_sentence(arguments, sentence):
+    with pytest.raises(contactcheck.InputError, match=sentence):
+        contactcheck.check(**arguments)
+
+
+class Steps:
+    """Answers about steps alone."""
+
+    declares = {"id": "steps", "levels": ["impact"], "questions": ["impacts"]}
+
+    def prepare(self, bodies):
+        pass
+
+    def update_step(self, start, end):
+        self.ends = start, end
+
+    def query(self, question):
+        return {"impacts": [(0, 1)], "impact_times": [0.5]}
+
+
+def test_class_of_steps_needs_no_update():
+    scene = contactcheck.Scene.from_frames([falling(1, -1), ([SHEET[0]] * 2, SHEET[1])], levels=["impact"])
+    (row,) = contactcheck.run(scene, Steps(), timing=False).rows()
+    assert (row["status"], row["impact_truth"], row["impact_missed"]) == ("ok", 1, 0)

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/types/impact.h"
+
 namespace contactcheck {
 
 /// The levels of contact; each has its own ground truth (fixtures/README.md).
@@ -107,6 +109,7 @@ struct Semantics {
   bool closed = true;               ///< true: touching is contact
   bool exact = false;               ///< true: it claims no miss and nothing spurious at its levels
   double margin = 0.0;              ///< metres; near = closer than this, strictly; 0 without one
+  ImpactTolerance tolerance;        ///< of contact within steps
   Precision precision = Precision::kDouble;
   double scale = 1.0;  ///< in single precision the detector gets fed_value(x, scale), not x
   /// Only in single precision, and then at scale 1: in every frame the detector subtracts

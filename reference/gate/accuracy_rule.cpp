@@ -41,6 +41,7 @@ Reading read_level(const Rule& rule, const results::Run& row) {
                           "for it"));
   }
   const results::LevelCounts& counts = found->second;
+  const results::NearReports within = counts.within.value_or(results::NearReports{});
   if (counts.informative)
     return without("level " + name + " is informative for this detector: shown, never gated");
   Reading out;
@@ -48,6 +49,14 @@ Reading read_level(const Rule& rule, const results::Run& row) {
     out = number(static_cast<double>(counts.missed));
   else if (measure == "spurious")
     out = number(static_cast<double>(counts.spurious));
+  else if (measure == "near")
+    out = number(static_cast<double>(within.near));
+  else if (measure == "near_max")
+    out = number(within.near_max);
+  else if (measure == "near_of_start_max")
+    out = number(within.near_of_start_max);
+  else if (measure == "undecided")
+    out = number(static_cast<double>(within.undecided));
   else if (measure == "recall")
     out = number_or(counts.recall, "there is no true contact at level " + name);
   else

@@ -270,13 +270,12 @@ class AccuracyPass {
     const Semantics& semantics = run_.semantics;
     const TrueNear near =
         true_near(tools_.oracle, tools_.judged.frame(f), levels_, semantics.margin);
+    // After the last frame there is no step: nothing is true or reported there.
+    const bool steps_on = impacts_ && f + 1 < scene_.frames;
+    if (steps_on) impacts_->begin(f, contacts_);
     for (const Level level : levels_) {
-      // After the last frame there is no step: nothing is true or reported there.
       if (is_impact(level)) {
-        totals_.add(f, level,
-                    f + 1 < scene_.frames
-                        ? compare_step_at(level, tools_.judged.steps[f].contacts, contacts_)
-                        : LevelComparison{});
+        totals_.add(f, level, steps_on ? impacts_->compare(level, contacts_) : LevelComparison{});
         continue;
       }
       const LevelComparison comparison =

@@ -18,47 +18,14 @@ bool all_in_lattices(const std::vector<Body>& bodies) {
                      [](const Body& b) { return b.shape->lattice.has_value(); });
 }
 
-// Pairs of any level as pairs of elements, in the same order.
-const std::vector<ElementPair>& as_pairs(const std::vector<ElementPair>& pairs) { return pairs; }
-std::vector<ElementPair> as_pairs(const std::vector<BodyPair>& pairs) {
-  std::vector<ElementPair> out;
-  for (const BodyPair& p : pairs) out.push_back({p.a, p.b, 0, 0});
-  return out;
-}
-std::vector<ElementPair> as_pairs(const std::vector<VertexInBody>& vertices) {
-  std::vector<ElementPair> out;
-  for (const VertexInBody& v : vertices) out.push_back({v.body, v.in, v.vertex, 0});
-  return out;
-}
-std::vector<ElementPair> as_pairs(const std::vector<NearPair>& pairs) {
-  std::vector<ElementPair> out;
-  for (const NearPair& p : pairs) out.push_back({p.body, p.other, p.vertex, p.triangle});
-  return out;
-}
-
 std::vector<ElementPair> as_pairs(const std::vector<SelfPair>& pairs) {
   std::vector<ElementPair> out;
-  for (const SelfPair& p : pairs) out.push_back({p.body, p.body, p.a, p.b});
-  return out;
-}
-std::vector<ElementPair> as_pairs(const std::vector<std::uint32_t>& bodies) {
-  std::vector<ElementPair> out;
-  for (const std::uint32_t body : bodies) out.push_back({body, body, 0, 0});
+  for (const SelfPair& p : pairs) out.push_back(as_pair(p));
   return out;
 }
 
 bool contains(const std::vector<Level>& levels, Level level) {
   return std::find(levels.begin(), levels.end(), level) != levels.end();
-}
-
-LevelComparison compare_sets(const std::vector<ElementPair>& truth,
-                             const std::vector<ElementPair>& reported) {
-  LevelComparison out;
-  std::set_difference(truth.begin(), truth.end(), reported.begin(), reported.end(),
-                      std::back_inserter(out.missed));
-  std::set_difference(reported.begin(), reported.end(), truth.begin(), truth.end(),
-                      std::back_inserter(out.spurious));
-  return out;
 }
 
 // Do the true triangles of a pair get past this stage?
@@ -276,15 +243,9 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
                            const oracle::Truth& truth, const ContactSet& reported,
                            const TrueNear& near) {
   LevelComparison out;
-  const auto compare = [&out](const auto& true_set, const auto& reported_set) {
-    out = compare_sets(as_pairs(true_set), as_pairs(reported_set));
-    out.counts.truth = true_set.size();
-    out.counts.reported = reported_set.size();
-  };
   switch (level) {
     case Level::kBody:
-      compare(true_body_pairs(semantics.solid, truth), reported.bodies);
-      break;
+      return compare_lists(true_body_pairs(semantics.solid, truth), reported.bodies);
     case Level::kContainment: {
       // A solid detector has one list for both kinds of contact. Level `body` judges the pairs
       // whose surfaces truly touch.
@@ -292,8 +253,7 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
       std::set_difference(reported.bodies.begin(), reported.bodies.end(),
                           truth.surface.bodies.begin(), truth.surface.bodies.end(),
                           std::back_inserter(contained));
-      compare(truth.containment, contained);
-      break;
+      return compare_lists(truth.containment, contained);
     }
     case Level::kCell: {
       // Truth, hit and missed count triangle pairs; reported and spurious count cell pairs.
@@ -307,29 +267,22 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
       break;
     }
     case Level::kBox:
-      compare(truth.boxes, reported.cells);
-      break;
+      return compare_lists(truth.boxes, reported.cells);
     case Level::kTriangle:
-      compare(truth.surface.triangles, reported.triangles);
-      break;
+      return compare_lists(truth.surface.triangles, reported.triangles);
     case Level::kVertex:
-      compare(truth.surface.vertices, reported.vertices);
-      break;
+      return compare_lists(truth.surface.vertices, reported.vertices);
     case Level::kNear:
-      compare(near.at(level), reported.near);
-      break;
+      return compare_lists(near.at(level), reported.near);
     case Level::kSelfNear:
-      compare(near.at(level), reported.self_near);
-      break;
+      return compare_lists(near.at(level), reported.self_near);
     case Level::kSelf:
     case Level::kSelfVertex:
     case Level::kSelfEdge:
-      compare(self_pairs(level, bodies, truth.surface.self),
-              self_pairs(level, bodies, reported.self));
-      break;
+      return compare_lists(self_pairs(level, bodies, truth.surface.self),
+                           self_pairs(level, bodies, reported.self));
     case Level::kSelfBody:
-      compare(truth.surface.self_bodies, reported.self_bodies);
-      break;
+      return compare_lists(truth.surface.self_bodies, reported.self_bodies);
     case Level::kSelfCell: {
       // As kCell: pairs of triangles, and pairs of cells. What can be found in neighbouring cells
       // is not claimed, and no error where it is found.

@@ -1,6 +1,9 @@
 // Compares a detector's answers with the ground truth, at each level and stage by stage.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -90,6 +93,44 @@ struct LevelComparison {
   /// In canonical order; they name the same elements as FrameDifferences.
   std::vector<ElementPair> missed, spurious;
 };
+
+template <typename Record>
+bool holds(const std::vector<Record>& sorted, const Record& record) {
+  return std::binary_search(sorted.begin(), sorted.end(), record);
+}
+
+// Records of any list as pairs of elements, in the same order.
+inline ElementPair as_pair(const ElementPair& p) { return p; }
+inline ElementPair as_pair(const BodyPair& p) { return {p.a, p.b, 0, 0}; }
+inline ElementPair as_pair(const VertexInBody& v) { return {v.body, v.in, v.vertex, 0}; }
+inline ElementPair as_pair(const NearPair& p) { return {p.body, p.other, p.vertex, p.triangle}; }
+inline ElementPair as_pair(const SelfPair& p) { return {p.body, p.body, p.a, p.b}; }
+inline ElementPair as_pair(const BodyImpact& p) { return as_pair(p.bodies); }
+inline ElementPair as_pair(std::uint32_t body) { return {body, body, 0, 0}; }
+
+/// What two canonical lists of one kind do not share, and all counts.
+template <typename Record>
+LevelComparison compare_lists(const std::vector<Record>& truth,
+                              const std::vector<Record>& reported) {
+  const auto pairs_of = [](const std::vector<Record>& list) {
+    std::vector<ElementPair> out;
+    out.reserve(list.size());
+    for (const Record& record : list) out.push_back(as_pair(record));
+    return out;
+  };
+  const std::vector<ElementPair> true_pairs = pairs_of(truth), answered = pairs_of(reported);
+  LevelComparison out;
+  std::set_difference(true_pairs.begin(), true_pairs.end(), answered.begin(), answered.end(),
+                      std::back_inserter(out.missed));
+  std::set_difference(answered.begin(), answered.end(), true_pairs.begin(), true_pairs.end(),
+                      std::back_inserter(out.spurious));
+  out.counts.truth = truth.size();
+  out.counts.reported = reported.size();
+  out.counts.missed = out.missed.size();
+  out.counts.spurious = out.spurious.size();
+  out.counts.hit = out.counts.truth - out.counts.missed;
+  return out;
+}
 
 /// Pairs nearer than a margin, for each level that has one.
 using TrueNear = std::map<Level, std::vector<NearPair>>;

@@ -73,6 +73,14 @@ void check_pairs(const scene::RandomPairs& pairs, std::size_t frame,
       note("spurious", pair);
 }
 
+double mean_edge(const BodyShape& shape) {
+  double sum = 0.0;
+  for (const Triangle& t : shape.mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      sum += (shape.mesh.vertices[t[i]] - shape.mesh.vertices[t[(i + 1) % 3]]).stableNorm();
+  return sum / static_cast<double>(3 * shape.mesh.triangles.size());
+}
+
 Frame make_frame(std::size_t index, double time, const std::vector<std::vector<Vec3>>& nodes,
                  const std::vector<std::vector<Vec3>>& vertices) {
   Frame frame;

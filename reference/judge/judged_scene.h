@@ -69,6 +69,9 @@ struct JudgedScene {
 oracle::WantedTruth wanted_truth(const scene::Scene& scene);
 oracle::WantedSteps wanted_steps(const scene::Scene& scene);
 
+/// The mean length of a triangle's side at rest, metres; 0 of a body that is a point.
+double mean_edge(const BodyShape& shape);
+
 /// A frame that refers to nodes and vertices, both [body][i]; they must outlive it.
 Frame make_frame(std::size_t index, double time, const std::vector<std::vector<Vec3>>& nodes,
                  const std::vector<std::vector<Vec3>>& vertices);

@@ -22,16 +22,11 @@ namespace {
                            ": " + what + "; that is an error of contactcheck");
 }
 
-template <typename Value>
-bool has(const std::vector<Value>& sorted, const Value& value) {
-  return std::binary_search(sorted.begin(), sorted.end(), value);
-}
-
 EndState state_of(BodyPair bodies, const FrameContacts& frame) {
   if (bodies.a == bodies.b)
-    return has(frame.self, bodies.a) ? EndState::kContact : EndState::kApart;
-  if (has(frame.touching, bodies)) return EndState::kContact;
-  return has(frame.inside, bodies) ? EndState::kInside : EndState::kApart;
+    return holds(frame.self, bodies.a) ? EndState::kContact : EndState::kApart;
+  if (holds(frame.touching, bodies)) return EndState::kContact;
+  return holds(frame.inside, bodies) ? EndState::kInside : EndState::kApart;
 }
 
 // The point of a segment that is nearest to `point`, as a share of its way.
@@ -172,14 +167,6 @@ class FoundElements {
 };
 
 }  // namespace
-
-double mean_edge(const BodyShape& shape) {
-  double sum = 0.0;
-  for (const Triangle& t : shape.mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      sum += (shape.mesh.vertices[t[i]] - shape.mesh.vertices[t[(i + 1) % 3]]).stableNorm();
-  return sum / static_cast<double>(3 * shape.mesh.triangles.size());
-}
 
 StepChecker::StepChecker(const scene::Scene& scene, const AllowedContact& allowed,
                          const DetectorCatalog& catalog)

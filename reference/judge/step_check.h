@@ -65,9 +65,6 @@ struct LargestTurn {
   std::uint32_t body = 0, triangle = 0;
 };
 
-/// The mean length of a triangle's side at rest; 0 of a body that is a point.
-double mean_edge(const BodyShape& shape);
-
 /// Finds contact within steps with swept-aabb, exactly. The oracle confirms what is named: of each
 /// pair of bodies the first elements and their time, and contact at either end.
 class StepChecker {

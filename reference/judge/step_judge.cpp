@@ -1,46 +1,10 @@
 #include "reference/judge/step_judge.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
-
-#include "reference/judge/step_check.h"
 
 namespace contactcheck::judge {
 namespace {
-
-// Pairs of any level as pairs of elements, in the same order.
-ElementPair as_pair(const ElementPair& p) { return p; }
-ElementPair as_pair(const NearPair& p) { return {p.body, p.other, p.vertex, p.triangle}; }
-ElementPair as_pair(const SelfPair& p) { return {p.body, p.body, p.a, p.b}; }
-ElementPair as_pair(const BodyImpact& p) { return {p.bodies.a, p.bodies.b, 0, 0}; }
-
-template <typename Pair>
-LevelComparison compare(const std::vector<Pair>& truth, const std::vector<Pair>& reported) {
-  const auto pairs_of = [](const std::vector<Pair>& list) {
-    std::vector<ElementPair> out;
-    out.reserve(list.size());
-    for (const Pair& pair : list) out.push_back(as_pair(pair));
-    return out;
-  };
-  const std::vector<ElementPair> true_pairs = pairs_of(truth), answered = pairs_of(reported);
-  LevelComparison out;
-  std::set_difference(true_pairs.begin(), true_pairs.end(), answered.begin(), answered.end(),
-                      std::back_inserter(out.missed));
-  std::set_difference(answered.begin(), answered.end(), true_pairs.begin(), true_pairs.end(),
-                      std::back_inserter(out.spurious));
-  out.counts.truth = truth.size();
-  out.counts.reported = reported.size();
-  out.counts.missed = out.missed.size();
-  out.counts.spurious = out.spurious.size();
-  out.counts.hit = out.counts.truth - out.counts.missed;
-  return out;
-}
-
-template <typename Value>
-bool holds(const std::vector<Value>& sorted, const Value& value) {
-  return std::binary_search(sorted.begin(), sorted.end(), value);
-}
 
 // Pairs of bodies whose surfaces meet within a step, and at neither end.
 std::vector<BodyPair> passing_pairs(const JudgedScene& judged, std::size_t step) {
@@ -67,17 +31,17 @@ std::vector<ElementPair> new_triangles(const JudgedScene& judged, std::size_t st
 LevelComparison compare_step_at(Level level, const ContactSet& truth, const ContactSet& reported) {
   switch (level) {
     case Level::kImpactVf:
-      return compare(truth.impact_vertices, reported.impact_vertices);
+      return compare_lists(truth.impact_vertices, reported.impact_vertices);
     case Level::kImpactEe:
-      return compare(truth.impact_edges, reported.impact_edges);
+      return compare_lists(truth.impact_edges, reported.impact_edges);
     case Level::kImpactTriangle:
-      return compare(truth.impact_triangles, reported.impact_triangles);
+      return compare_lists(truth.impact_triangles, reported.impact_triangles);
     case Level::kImpactSelfVf:
-      return compare(truth.self_impact_vertices, reported.self_impact_vertices);
+      return compare_lists(truth.self_impact_vertices, reported.self_impact_vertices);
     case Level::kImpactSelfEe:
-      return compare(truth.self_impact_edges, reported.self_impact_edges);
+      return compare_lists(truth.self_impact_edges, reported.self_impact_edges);
     default:
-      return compare(truth.impacts, reported.impacts);
+      return compare_lists(truth.impacts, reported.impacts);
   }
 }
 
@@ -96,9 +60,9 @@ results::SceneImpacts scene_impacts(const JudgedScene& judged) {
                 edges[b]);
     // The difference of two coordinates, or its share of a small edge, may be no double.
     motion = std::min(motion, std::numeric_limits<double>::max());
-    std::uint64_t& starting = out.starting.emplace_back(0);
+    std::uint64_t &starting = out.starting.emplace_back(0), &meeting = out.meeting.emplace_back(0);
     for (const oracle::FirstImpact& first : judged.steps[k].first)
-      starting += first.starts_in_contact ? 1 : 0;
+      ++(first.starts_in_contact ? starting : meeting);
     out.passing.push_back(passing_pairs(judged, k).size());
     for (const ElementPair& pair : new_triangles(judged, k)) {
       ++out.new_triangles;
@@ -111,8 +75,37 @@ results::SceneImpacts scene_impacts(const JudgedScene& judged) {
 StepSums::StepSums(const JudgedScene& judged, const Semantics& semantics)
     : judged_(judged),
       of_steps_(semantics.claims(Level::kImpact)),
-      of_triangles_(semantics.claims(Level::kImpactTriangle)) {
+      of_triangles_(semantics.claims(Level::kImpactTriangle)),
+      tolerance_(semantics.tolerance) {
   if (of_triangles_) sums.new_triangles = sums.new_missed = 0;
+  if (tolerance_.absolute > 0.0 || tolerance_.of_start > 0.0)
+    distances_.emplace(judged.scene->bodies);
+}
+
+void StepSums::begin(std::size_t step, const ContactSet& answer) {
+  step_ = step;
+  if (distances_) distances_->set_step(judged_.step(step));
+  if (of_steps_) add_times(judged_.steps[step], answer);
+}
+
+LevelComparison StepSums::compare(Level level, const ContactSet& answer) {
+  LevelComparison out = compare_step_at(level, judged_.steps[step_].contacts, answer);
+  if (!distances_) return out;
+  results::NearReports& within = out.counts.within.emplace();
+  std::erase_if(out.spurious, [&](const ElementPair& pair) {
+    const oracle::StepNearness found = distances_->nearness(level, pair, tolerance_);
+    if (found.verdict == oracle::NearVerdict::kSpurious) return false;
+    if (found.verdict == oracle::NearVerdict::kUndecided) {
+      ++within.undecided;
+      return true;
+    }
+    ++within.near;
+    within.near_max = std::max(within.near_max, found.distance);
+    within.near_of_start_max = std::max(within.near_of_start_max, found.of_start);
+    return true;
+  });
+  out.counts.spurious = out.spurious.size();
+  return out;
 }
 
 void StepSums::add(std::size_t step, const std::vector<BodyPair>& at_start,
@@ -125,7 +118,6 @@ void StepSums::add(std::size_t step, const std::vector<BodyPair>& at_start,
         of_steps_ ? holds(within, pair) : holds(at_start, pair) || holds(at_end, pair);
     tunnelled += seen ? 0 : 1;
   }
-  if (of_steps_) add_times(judged_.steps[step], answer);
   if (!of_triangles_) return;
   for (const ElementPair& pair : new_triangles(judged_, step)) {
     ++*sums.new_triangles;
@@ -141,6 +133,12 @@ void StepSums::add_times(const oracle::StepTruth& truth, const ContactSet& answe
     if (reported == answer.impacts.end() || reported->bodies != first.bodies || !reported->time)
       continue;
     const double time = *reported->time;
+    if (time == 0.0 && !first.starts_in_contact && tolerance_.absolute > 0.0 &&
+        distances_->near_at_start(first.bodies, tolerance_.absolute) ==
+            oracle::NearVerdict::kNear) {
+      ++sums.near_at_start;
+      continue;
+    }
     ++sums.timed;
     sums.early_max = std::max(sums.early_max.value_or(0.0), first.earliest - time);
     sums.late_max = std::max(sums.late_max.value_or(0.0), time - first.latest);

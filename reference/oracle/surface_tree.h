@@ -73,25 +73,37 @@ bool any_triangle(const SurfaceTree& tree, Meets&& meets, Visit&& visit, std::ui
   return false;
 }
 
-namespace surface_tree_detail {
-
-template <typename Visit>
-bool any_leaf_pair(const SurfaceTree& a, const SurfaceTree& b, const SurfaceTree::Node& x,
-                   const SurfaceTree::Node& y, Visit&& visit) {
-  for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
-    if (!a.box_at(i).overlaps(y.box)) continue;
-    for (std::uint32_t j = y.first; j < y.first + y.count; ++j)
-      if (a.box_at(i).overlaps(b.box_at(j)) && visit(a.triangle_at(i), b.triangle_at(j)))
-        return true;
+/// Calls `visit(triangle of a, triangle of b)` once for every pair whose closed boxes satisfy
+/// `meets(box, box)`. If `meets` accepts two boxes, it must accept all boxes around them. Stops and
+/// returns true when `visit` does.
+template <typename Meets, typename Visit>
+bool any_pair(const SurfaceTree& a, const SurfaceTree& b, Meets&& meets, Visit&& visit,
+              std::uint32_t i = 0, std::uint32_t j = 0) {
+  const SurfaceTree::Node &x = a.node(i), &y = b.node(j);
+  if (!meets(x.box, y.box)) return false;
+  if (x.is_leaf() && y.is_leaf()) {
+    for (std::uint32_t p = x.first; p < x.first + x.count; ++p) {
+      if (!meets(a.box_at(p), y.box)) continue;
+      for (std::uint32_t q = y.first; q < y.first + y.count; ++q)
+        if (meets(a.box_at(p), b.box_at(q)) && visit(a.triangle_at(p), b.triangle_at(q)))
+          return true;
+    }
+    return false;
   }
-  return false;
+  const bool split_first =
+      y.is_leaf() || (!x.is_leaf() && x.box.extent().maxCoeff() >= y.box.extent().maxCoeff());
+  if (split_first)
+    return any_pair(a, b, meets, visit, i + 1, j) || any_pair(a, b, meets, visit, x.second, j);
+  return any_pair(a, b, meets, visit, i, j + 1) || any_pair(a, b, meets, visit, i, y.second);
 }
 
-}  // namespace surface_tree_detail
-
+/// The same for pairs whose boxes overlap.
 template <typename Visit>
 bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std::uint32_t i = 0,
-                  std::uint32_t j = 0);
+                  std::uint32_t j = 0) {
+  const auto overlap = [](const Aabb& x, const Aabb& y) { return x.overlaps(y); };
+  return any_pair(a, b, overlap, visit, i, j);
+}
 
 /// Calls `visit(triangle, triangle)` once for every two triangles of the surface whose closed boxes
 /// overlap, in either order. Stops and returns true when `visit` does.
@@ -107,25 +119,6 @@ bool any_own_box_pair(const SurfaceTree& tree, Visit&& visit, std::uint32_t inde
           visit(tree.triangle_at(i), tree.triangle_at(j)))
         return true;
   return false;
-}
-
-/// Calls `visit(triangle of a, triangle of b)` once for every pair whose closed boxes overlap.
-/// Stops and returns true when `visit` does.
-template <typename Visit>
-bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std::uint32_t i,
-                  std::uint32_t j) {
-  const SurfaceTree::Node& x = a.node(i);
-  const SurfaceTree::Node& y = b.node(j);
-  if (!x.box.overlaps(y.box)) return false;
-  if (x.is_leaf() && y.is_leaf()) {
-    return surface_tree_detail::any_leaf_pair(a, b, x, y, visit);
-  }
-  const bool split_first =
-      y.is_leaf() || (!x.is_leaf() && x.box.extent().maxCoeff() >= y.box.extent().maxCoeff());
-  if (split_first) {
-    return any_box_pair(a, b, visit, i + 1, j) || any_box_pair(a, b, visit, x.second, j);
-  }
-  return any_box_pair(a, b, visit, i, j + 1) || any_box_pair(a, b, visit, i, y.second);
 }
 
 }  // namespace contactcheck::oracle

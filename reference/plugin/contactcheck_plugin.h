@@ -296,7 +296,8 @@ typedef struct contactcheck_impact {
   uint32_t contact; /* 1: they meet at some t in [0, 1] */
   uint32_t has;     /* bits */
   double time;      /* with HAS_TIME: of the first contact, in [0, 1] */
-  double tolerance; /* with HAS_TOLERANCE: that of this report in metres, instead of the declared */
+  double tolerance; /* with HAS_TOLERANCE: that of this report in metres, instead of the declared
+                     * ones; of a query alone: in a step the declared ones count */
 } contactcheck_impact;
 
 /* All bodies over a step. The arrays live until step() returns. */

@@ -95,6 +95,19 @@ std::vector<OptionInfo> read_options(const text::JsonField& field) {
   return options;
 }
 
+ImpactTolerance read_tolerance(const text::JsonField& field) {
+  ImpactTolerance out;
+  if (field.has("tolerance")) out.absolute = field.at("tolerance").number();
+  if (field.has("tolerance_of_start")) out.of_start = field.at("tolerance_of_start").number();
+  return out;
+}
+
+std::string tolerance_fault(const ImpactTolerance& tolerance) {
+  for (const double number : {tolerance.absolute, tolerance.of_start})
+    if (!std::isfinite(number) || number < 0.0) return "a tolerance is no number from 0 on";
+  return "";
+}
+
 Json impacts_json(const ImpactClaims& claims) {
   Json kinds = Json::array();
   for (const ImpactKind kind : claims.kinds) kinds.push_back(name_of(kind));
@@ -115,6 +128,7 @@ Semantics read_semantics(const text::JsonField& field) {
   if (field.has("touching")) s.closed = field.at("touching").one_of({"closed", "open"}) == "closed";
   if (field.has("exact")) s.exact = field.at("exact").boolean();
   if (field.has("margin")) s.margin = field.at("margin").number();
+  s.tolerance = read_tolerance(field);
   if (field.has("precision")) s.precision = named_value(field.at("precision"), kHeaderPrecisions);
   if (field.has("scale")) s.scale = field.at("scale").number();
   if (field.has("depth_kind")) s.depth = named_value(field.at("depth_kind"), kHeaderDepthKinds);
@@ -130,9 +144,7 @@ ImpactClaims read_impact_claims(const text::JsonField& field) {
   claims.kinds = named_values(field.at("kinds"), kHeaderKinds);
   if (field.has("precision"))
     claims.precision = named_value(field.at("precision"), kHeaderPrecisions);
-  if (field.has("tolerance")) claims.tolerance.absolute = field.at("tolerance").number();
-  if (field.has("tolerance_of_start"))
-    claims.tolerance.of_start = field.at("tolerance_of_start").number();
+  claims.tolerance = read_tolerance(field);
   const std::string fault = claims_fault(claims);
   if (!fault.empty()) field.fail("does not fit together: " + fault);
   return claims;
@@ -215,16 +227,17 @@ std::string semantics_fault(const Semantics& s) {
     return "it has a scale and no single precision";
   if (s.local_origin && (s.precision == Precision::kDouble || s.scale != 1.0))
     return "it has a local origin and no single precision at scale 1";
-  return "";
+  const bool tolerates = s.tolerance.absolute != 0.0 || s.tolerance.of_start != 0.0;
+  if (tolerates && !s.answers(Question::kImpacts) && !s.answers(Question::kSelfImpacts))
+    return "it has a tolerance and answers no question about steps";
+  return tolerance_fault(s.tolerance);
 }
 
 std::string claims_fault(const ImpactClaims& claims) {
   if (claims.kinds.empty()) return "it answers no kind of queries";
   if (std::set<ImpactKind>(claims.kinds.begin(), claims.kinds.end()).size() != claims.kinds.size())
     return "it names a kind twice";
-  for (const double tolerance : {claims.tolerance.absolute, claims.tolerance.of_start})
-    if (!std::isfinite(tolerance) || tolerance < 0.0) return "a tolerance is no number from 0 on";
-  return "";
+  return tolerance_fault(claims.tolerance);
 }
 
 void read_self_answer(const std::string& from, ContactSet& answer) {
@@ -281,8 +294,9 @@ void require_same_claims(const std::string& from, const ImpactClaims& before,
 }
 
 void refuse_change(const std::string& from, const std::string& key) {
-  throw InputError(from + " declares another \"" + key +
-                   "\" after prepare than before: only scale and margin may change then");
+  throw InputError(
+      from + " declares another \"" + key +
+      "\" after prepare than before: only scale, margin and tolerances may change then");
 }
 
 }  // namespace contactcheck::plugin

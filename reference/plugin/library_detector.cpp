@@ -333,6 +333,7 @@ class LibraryDetector : public Detector {
     if (table().step == nullptr || table().prepare == nullptr)
       throw InputError("declares levels within a step and has no function prepare or step");
     s.levels.insert(s.levels.end(), levels.begin(), levels.end());
+    s.tolerance = {said.tolerance, said.tolerance_of_start};
     if (table().declare == nullptr)
       s.precision = value_of(said.precision, kHeaderPrecisions, "precision");
     const auto own = std::count_if(levels.begin(), levels.end(), is_self_impact);

@@ -30,6 +30,14 @@ LevelCounts& LevelCounts::operator+=(const LevelCounts& other) {
   hit += other.hit;
   missed += other.missed;
   spurious += other.spurious;
+  if (other.within) {
+    if (!within) within.emplace();
+    within->near += other.within->near;
+    within->undecided += other.within->undecided;
+    within->near_max = std::max(within->near_max, other.within->near_max);
+    within->near_of_start_max =
+        std::max(within->near_of_start_max, other.within->near_of_start_max);
+  }
   return *this;
 }
 

@@ -30,13 +30,24 @@ struct Machine {
 /// The members with their names in the file, in its order.
 std::vector<std::pair<std::string, std::string>> members_of(const Machine& machine);
 
+/// Reports of contact within steps that are not true, but whose elements come as near as the
+/// detector's declared tolerance; they are not spurious.
+struct NearReports {
+  std::uint64_t near = 0;
+  std::uint64_t undecided = 0;  ///< those of which the oracle does not say whether they are near
+  /// Of the near ones the largest of the smallest distances within the step, metres, and the
+  /// largest as a share of the distance at its start. A cap on tolerances limits these.
+  double near_max = 0.0, near_of_start_max = 0.0;
+};
+
 /// Sums over frames, at one level.
 struct LevelCounts {
   std::uint64_t truth = 0, reported = 0, hit = 0, missed = 0, spurious = 0;
   /// hit / truth and spurious / reported; none if the divisor is 0.
   std::optional<double> recall = {}, spurious_rate = {};
-  std::optional<double> margin = {};  ///< of the near levels, metres
-  bool informative = false;           ///< not claimed: shown, never gated
+  std::optional<double> margin = {};       ///< of the near levels, metres
+  bool informative = false;                ///< not claimed: shown, never gated
+  std::optional<NearReports> within = {};  ///< if a tolerance is declared for the level
 
   bool perfect() const { return missed == 0 && spurious == 0; }
   /// Adds the counts only.
@@ -172,6 +183,9 @@ struct Impacts {
   /// first time the reported one is at most, fractions of the step.
   std::uint64_t timed = 0;
   std::optional<double> early_max, late_max;  ///< none without such a pair
+  /// Pairs that do meet, are apart at the start and within the tolerance there, and are reported
+  /// at time 0: they are neither timed nor early.
+  std::uint64_t near_at_start = 0;
   /// Pairs of triangles that meet within a step and do not touch at its start, and those of them
   /// that are not reported; none if it does not claim such pairs.
   std::optional<std::uint64_t> new_triangles, new_missed;
@@ -289,8 +303,9 @@ struct SceneScale {
 /// Contact within the steps from frame to frame, by step.
 struct SceneImpacts {
   std::vector<double> motion;  ///< the largest of a vertex, in mean edges of its body at rest
-  /// Pairs of bodies that touch at the start; that meet and touch at neither end.
-  std::vector<std::uint64_t> starting, passing;
+  /// Pairs of bodies that touch at the start; that meet and are apart at the start; those of them
+  /// that do not touch at the end either. `meeting` is empty in files of older programs.
+  std::vector<std::uint64_t> starting, meeting, passing;
   /// Pairs of triangles that meet and do not touch at the start, over all steps; those of them that
   /// do not touch at the end either.
   std::uint64_t new_triangles = 0, passing_triangles = 0;

@@ -24,6 +24,8 @@ void fields(Io& io, Semantics& s) {
   io("depth_kind", s.depth);
   io("means", s.means);
   CONTACTCHECK_FIELDS(io.unless_empty, s, local_origin, no_early_end);
+  io.unless_empty("tolerance", s.tolerance.absolute);
+  io.unless_empty("tolerance_of_start", s.tolerance.of_start);
 }
 
 namespace results {
@@ -40,9 +42,14 @@ void fields(Io& io, Machine& m) {
 }
 
 template <typename Io>
+void fields(Io& io, NearReports& n) {
+  CONTACTCHECK_FIELDS(io, n, near, near_max, near_of_start_max, undecided);
+}
+
+template <typename Io>
 void fields(Io& io, LevelCounts& c) {
   CONTACTCHECK_FIELDS(io, c, truth, reported, hit, missed, spurious, recall, spurious_rate);
-  CONTACTCHECK_FIELDS(io.unless_empty, c, margin, informative);
+  CONTACTCHECK_FIELDS(io.unless_empty, c, margin, informative, within);
 }
 
 template <typename Io>
@@ -132,12 +139,12 @@ void fields(Io& io, ClosedLoop& c) {
 template <typename Io>
 void fields(Io& io, Impacts& i) {
   CONTACTCHECK_FIELDS(io, i, tunnelled, timed, early_max, late_max);
-  CONTACTCHECK_FIELDS(io.unless_empty, i, new_triangles, new_missed);
+  CONTACTCHECK_FIELDS(io.unless_empty, i, new_triangles, new_missed, near_at_start);
 }
 
 template <typename Io>
 void fields(Io& io, SceneImpacts& i) {
-  CONTACTCHECK_FIELDS(io, i, motion, starting, passing, new_triangles, passing_triangles);
+  CONTACTCHECK_FIELDS(io, i, motion, starting, meeting, passing, new_triangles, passing_triangles);
 }
 
 template <typename Io>

@@ -16,6 +16,7 @@ namespace {
 using results::ErrorSpread;
 using results::Geometry;
 using results::LevelCounts;
+using results::NearReports;
 using results::PhaseTimes;
 using results::QuestionTimes;
 using results::Run;
@@ -84,13 +85,24 @@ std::vector<CsvColumn> columns_of(const results::Results& results) {
               std::pair("contact_frames", &Run::contact_frames));
   columns.push_back({"finest_level", finest_level});
 
-  for (const Level level : kLevels)
+  for (const Level level : kLevels) {
     add_members(
         name_of(level), "", [=](const Run& run) { return counts_of(run, level); },
         std::pair("_truth", &LevelCounts::truth), std::pair("_reported", &LevelCounts::reported),
         std::pair("_hit", &LevelCounts::hit), std::pair("_missed", &LevelCounts::missed),
         std::pair("_spurious", &LevelCounts::spurious), std::pair("_recall", &LevelCounts::recall),
         std::pair("_spurious_rate", &LevelCounts::spurious_rate));
+    if (!is_impact(level)) continue;
+    add_members(
+        name_of(level), "",
+        [=](const Run& run) {
+          const LevelCounts* counts = counts_of(run, level);
+          return counts == nullptr || !counts->within ? nullptr : &*counts->within;
+        },
+        std::pair("_near", &NearReports::near), std::pair("_near_max_m", &NearReports::near_max),
+        std::pair("_near_of_start_max", &NearReports::near_of_start_max),
+        std::pair("_undecided", &NearReports::undecided));
+  }
 
   const auto geometry = [](const Run& run) { return &run.geometry; };
   const auto add_spread = [&](const char* name, const char* unit, auto spread) {

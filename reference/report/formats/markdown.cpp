@@ -8,6 +8,7 @@
 #include "reference/report/pictures/loss_charts.h"
 #include "reference/report/pictures/speed_error_plot.h"
 #include "reference/report/pictures/stability_plot.h"
+#include "reference/report/pictures/tunnelling_plot.h"
 #include "reference/report/tables/family_result.h"
 #include "reference/report/tables/origin.h"
 #include "reference/report/tables/run_row.h"
@@ -144,6 +145,7 @@ std::map<std::string, std::string> report_files(const results::Results& results)
   add_picture(kSpeedErrorFile, speed_error_picture(index));
   add_picture(kErrorsFile, errors_picture(results));
   add_picture(kStagesFile, stages_picture(results));
+  add_picture(kTunnellingFile, tunnelling_plot(tunnelling(index)));
   const std::vector<FamilyResult> families = family_results(index);
   for (const results::Scene& scene : results.scenes)
     if (scene.family) add_picture(stability_plot_file(scene), stability_plot(scene, families));

@@ -10,6 +10,8 @@
 #include "core/types/check.h"
 #include "reference/report/pictures/speed_error_plot.h"
 #include "reference/report/pictures/stability_plot.h"
+#include "reference/report/pictures/tunnelling_plot.h"
+#include "reference/report/tables/between_frames.h"
 #include "reference/report/tables/detector_group.h"
 #include "reference/report/tables/error_spreads.h"
 #include "reference/report/tables/family_result.h"
@@ -66,22 +68,26 @@ Json to_json(const std::vector<TitledTable>& tables) {
   return out;
 }
 
-Json block_json(const Paragraph& paragraph) { return {{"text", paragraph.text}}; }
-Json block_json(const Heading& heading) { return {{"heading", heading.text}}; }
-Json block_json(const Items& items) { return {{"items", items.texts}}; }
-Json block_json(const TitledTable& table) { return {{"table", to_json(table)}}; }
-Json block_json(const Picture& picture) {
-  CONTACTCHECK_INVARIANT(false, "the page has no file " + picture.file);
-  return {};
+/// By file.
+using Pictures = std::map<std::string, std::string>;
+
+Json block_json(const Paragraph& paragraph, const Pictures&) { return {{"text", paragraph.text}}; }
+Json block_json(const Heading& heading, const Pictures&) { return {{"heading", heading.text}}; }
+Json block_json(const Items& items, const Pictures&) { return {{"items", items.texts}}; }
+Json block_json(const TitledTable& table, const Pictures&) { return {{"table", to_json(table)}}; }
+Json block_json(const Picture& picture, const Pictures& pictures) {
+  return {{"picture", pictures.at(picture.file)}, {"what", picture.what}};
 }
 
-// Adds a section that the page shows block by block, if it has something to say.
-void add_section(Json& all, const Section& section, const Blocks& blocks) {
+// Adds a section that the page shows block by block, if it has something to say. `pictures`: those
+// of its blocks, by file; the page holds them itself.
+void add_section(Json& all, const Section& section, const Blocks& blocks,
+                 const Pictures& pictures = {}) {
   Json shown = Json::array();
   for (const Block& block : blocks) {
     const auto* table = std::get_if<TitledTable>(&block);
-    if (table == nullptr || !table->rows.empty())
-      shown.push_back(std::visit([](const auto& one) { return block_json(one); }, block));
+    if (table != nullptr && table->rows.empty()) continue;
+    shown.push_back(std::visit([&](const auto& one) { return block_json(one, pictures); }, block));
   }
   if (!shown.empty())
     all.push_back({{"id", section.id},
@@ -106,9 +112,10 @@ Blocks pairs_blocks(const results::Results& results) {
 
 Json sections_json(const results::Index& index) {
   Json out = Json::array();
+  const Pictures pictures = {{kTunnellingFile, tunnelling_plot(tunnelling(index))}};
   for (const Section* section : sections())
     if (section->build != nullptr && !section->drawn_on_page)
-      add_section(out, *section, section->build(index));
+      add_section(out, *section, section->build(index), pictures);
   add_section(out, {"pairs", "Random pairs", "Random pairs", nullptr},
               pairs_blocks(index.results()));
   add_section(out, {"machine", "Machine, libraries and command", "Machine", nullptr},

@@ -1,4 +1,9 @@
+#include "reference/report/tables/between_frames.h"
+
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
 #include <numeric>
 
 #include "reference/report/tables/format.h"
@@ -145,15 +150,109 @@ TitledTable detectors_table(const results::Index& index) {
   return out;
 }
 
+TitledTable tolerances_table(const results::Index& index) {
+  TitledTable out{
+      "Reports within the tolerance",
+      "Where a detector declares a tolerance, a report of what does not meet is near, not "
+      "spurious, if its elements come as near as that within the step.",
+      {{"scene", true},
+       {"detector", true},
+       {"level", true},
+       {"near", false, "reports that the tolerance excuses"},
+       {"largest mm", false, "the most that one of these is from contact"},
+       {"of start", false, "the most as a share of the distance at the start of the step"},
+       {"undecided", false, "reports of which the oracle does not say whether they are near"},
+       {.title = "spurious",
+        .left = false,
+        .meaning = "reports beyond the tolerance",
+        .role = Role::kErrors}},
+      {}};
+  for (const Run& run : index.results().runs)
+    for (const auto& [level, counts] : run.levels)
+      if (counts.within && counts.within->near + counts.within->undecided > 0)
+        out.rows.push_back(
+            {run.scene, run.detector, name_of(level), grouped_digits(counts.within->near),
+             format_millimetres(counts.within->near_max),
+             format_number(counts.within->near_of_start_max),
+             grouped_digits(counts.within->undecided), grouped_digits(counts.spurious)});
+  return out;
+}
+
 Blocks between_blocks(const results::Index& index) {
-  return {scenes_table(index), detectors_table(index)};
+  Blocks out = {scenes_table(index), detectors_table(index), tolerances_table(index)};
+  if (tunnelling(index).empty()) return out;
+  out.emplace_back(Heading{"What passes unseen"});
+  out.emplace_back(
+      Paragraph{"Of the pairs of bodies that meet within a step and are apart at its start: the "
+                "share that touches at neither end and is not reported, over the largest motion "
+                "in the step."});
+  out.emplace_back(Picture{kTunnellingFile, "Tunnelled pairs of bodies against motion in a step"});
+  return out;
 }
 
 std::vector<TerminalPart> between_in_terminal(const results::Index& index) {
-  return {{"between frames", "", "", detectors_table(index)}};
+  return {{"between frames", "", "", detectors_table(index)},
+          {"within the tolerance", "", "", tolerances_table(index)}};
 }
 
+/// What a half of a decade of motion holds.
+struct Bin {
+  std::uint64_t meeting = 0;
+  std::map<std::string, std::uint64_t> tunnelled;
+};
+
+// Twice the decade: 10^0.5 is half a decade above 1.
+int half_decade(double motion) { return static_cast<int>(std::floor(2.0 * std::log10(motion))); }
+
 }  // namespace
+
+std::vector<TunnellingLine> tunnelling(const results::Index& index) {
+  std::map<int, Bin> bins;
+  std::map<std::string, std::size_t> answered;  // scenes
+  std::size_t scenes = 0;
+  for (const Scene& scene : index.results().scenes) {
+    if (!scene.impacts) continue;
+    const results::SceneImpacts& impacts = *scene.impacts;
+    if (impacts.meeting.size() != impacts.motion.size() || sum(impacts.meeting) == 0) continue;
+    ++scenes;
+    for (const Run* run : index.runs_of(scene.id))
+      if (run->ok() && run->impacts) ++answered[run->detector];
+    for (std::size_t k = 0; k < impacts.motion.size(); ++k) {
+      if (impacts.meeting[k] == 0) continue;
+      Bin& bin = bins[half_decade(impacts.motion[k])];
+      bin.meeting += impacts.meeting[k];
+      for (const Run* run : index.runs_of(scene.id))
+        if (run->ok() && run->impacts && k < run->impacts->tunnelled.size())
+          bin.tunnelled[run->detector] += run->impacts->tunnelled[k];
+    }
+  }
+  std::vector<TunnellingLine> lines;
+  const auto shares = [](const TunnellingLine& line) {
+    return std::accumulate(line.points.begin(), line.points.end(), 0.0,
+                           [](double all, const auto& point) { return all + point.share; });
+  };
+  for (const auto& [detector, in] : answered) {
+    if (in != scenes) continue;
+    TunnellingLine line{{detector}, {}};
+    for (const auto& [half, bin] : bins) {
+      const auto found = bin.tunnelled.find(detector);
+      const std::uint64_t count = found == bin.tunnelled.end() ? 0 : found->second;
+      line.points.push_back({std::pow(10.0, 0.5 * half + 0.25),
+                             static_cast<double>(count) / static_cast<double>(bin.meeting)});
+    }
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const TunnellingLine& other) {
+      return std::ranges::equal(other.points, line.points, {}, &TunnellingPoint::share,
+                                &TunnellingPoint::share);
+    });
+    if (same == lines.end())
+      lines.push_back(std::move(line));
+    else
+      same->detectors.push_back(detector);
+  }
+  std::ranges::stable_sort(lines, std::greater<>(), shares);
+  if (lines.empty() || shares(lines.front()) == 0.0) lines.clear();
+  return lines;
+}
 
 /// Contact within the steps from frame to frame: what is true, and what detectors say of it.
 extern const Section kBetweenFrames = {"between", "Between frames", "Between frames",

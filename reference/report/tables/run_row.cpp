@@ -213,6 +213,11 @@ std::string semantics_text(const Semantics& s) {
   text += "; questions " + names_of(s.questions) + (s.solid ? "; solid, " : "; surface, ") +
           (s.closed ? "closed, " : "open, ") + (s.exact ? "exact" : "not exact");
   if (s.margin > 0.0) text += "; margin " + format_millimetres(s.margin) + " mm";
+  if (s.tolerance.absolute > 0.0)
+    text += "; tolerance within steps " + format_millimetres(s.tolerance.absolute) + " mm";
+  if (s.tolerance.of_start > 0.0)
+    text += "; tolerance within steps " + format_number(s.tolerance.of_start) +
+            " of the distance at the start";
   text += std::string("; ") + name_of(s.precision) + " precision";
   if (s.local_origin) text += " about a local origin";
   if (s.scale != 1.0) text += ", scale " + format_number(s.scale);

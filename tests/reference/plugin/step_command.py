@@ -5,7 +5,7 @@ import json
 import struct
 import sys
 
-SAYS = sys.argv[1]
+SAYS, TOLERANCES = sys.argv[1], [float(word) for word in sys.argv[2:]]
 LEVELS = ["impact-vf", "impact-ee", "impact-triangle", "impact"]
 
 
@@ -18,7 +18,7 @@ def write(line, data=b""):
 def contacts():
     if SAYS == "nothing":
         return {}, b""
-    time = {"early": 0.25, "timeless": -1.0, "nan": float("nan")}.get(SAYS, 0.5)
+    time = {"early": 0.25, "timeless": -1.0, "nan": float("nan"), "start": 0.0}.get(SAYS, 0.5)
     edges = {"edges": (0, 1, 1, 0, 2, 1), "no-edge": (0, 1, 1, 7, 2, 1)}.get(SAYS)
     line = {"impacts": 1, "impact_triangles": 1, "impact_vertices": 3}
     data = struct.pack("<2Id", 1, 0, time) + struct.pack("<4I", 0, 1, 0, 0)
@@ -35,13 +35,14 @@ for text in iter(sys.stdin.buffer.readline, b""):
     if asked["message"] == "hello":
         questions = ["triangles"] if SAYS == "no-question" else ["impacts"]
         write({"message": "hello", "protocol": "contactcheck-pipe/1", "id": "steps", "needs": ["vertices"],
-               "semantics": {"levels": LEVELS, "questions": questions}})
+               "semantics": {"levels": LEVELS, "questions": questions,
+                             **dict(zip(("tolerance", "tolerance_of_start"), TOLERANCES))}})
     elif asked["message"] == "prepare":
         write({"message": "ready"})
     elif asked["message"] == "step":
         ends = struct.unpack("<36d", data)
         assert (asked["index"], asked["start_time"], asked["end_time"]) == (0, 0.0, 1.0)
-        assert ends[11] == 1 and ends[29] == -1, ends
+        assert ends[11] == 1 and ends[29] in (-1, 0.125), ends
         write({"message": "done"})
     elif asked["message"] == "query":
         assert asked["question"] == "impacts"

@@ -22,6 +22,7 @@ static int32_t declare_impacts(void* detector, contactcheck_impact_semantics* s,
   s->levels = CONTACTCHECK_IMPACT_VERTEX_FACE | CONTACTCHECK_IMPACT_EDGE_EDGE |
               CONTACTCHECK_IMPACT_TRIANGLE | CONTACTCHECK_IMPACT_BODY;
   if (is(detector, "bodies")) s->levels = CONTACTCHECK_IMPACT_BODY;
+  if (is(detector, "tolerant")) s->tolerance = 0.125, s->tolerance_of_start = 0.0625;
   return CONTACTCHECK_OK;
 }
 
@@ -35,7 +36,7 @@ static int32_t step(void* detector, const contactcheck_step* step,
                     const contactcheck_step_answer* answer, char* message) {
   contactcheck_impact impact = {1, CONTACTCHECK_HAS_TIME, 0.5, 0};
   (void)message;
-  if (step->body_count != 2 || step->start[1].vertices[2] != 1 || step->end[1].vertices[2] != -1)
+  if (step->body_count != 2 || step->start[1].vertices[2] != 1 || step->end[1].vertices[2] > 0.125)
     return CONTACTCHECK_ERROR;
   if (is(detector, "nothing")) return CONTACTCHECK_OK;
   if (is(detector, "early")) impact.time = 0.25;
@@ -67,9 +68,9 @@ static int32_t step(void* detector, const contactcheck_step* step,
   return CONTACTCHECK_OK;
 }
 
-static const char* const kChoices[] = {"truth",   "nothing", "early",    "late",
-                                       "nan",     "after",   "timeless", "edges",
-                                       "no-edge", "unsaid",  "bodies",   NULL};
+static const char* const kChoices[] = {"truth",  "nothing",  "early", "late",    "nan",
+                                       "after",  "timeless", "edges", "no-edge", "unsaid",
+                                       "bodies", "tolerant", NULL};
 static const contactcheck_option kOptions[] = {
     {.name = "says", .default_value = "truth", .choices = kChoices}};
 

@@ -51,3 +51,12 @@ export function unfolding(
   });
   return details;
 }
+
+/** A picture that the program drew, with colours of this page; a shadow root keeps its style its own. */
+export function drawn(svg: string, click?: (event: MouseEvent) => void): HTMLElement {
+  const place = h("div"),
+    root = place.attachShadow({mode: "open"});
+  root.innerHTML = svg;
+  if (click) root.addEventListener("click", (event) => click(event as MouseEvent));
+  return place;
+}

@@ -58,7 +58,12 @@ export interface TextSection {
   blocks: Block[];
 }
 
-export type Block = {text: string} | {heading: string} | {items: string[]} | {table: TextTable};
+export type Block =
+  | {text: string}
+  | {heading: string}
+  | {items: string[]}
+  | {table: TextTable}
+  | {picture: string; what: string};
 
 export interface TextColumn {
   title: string;

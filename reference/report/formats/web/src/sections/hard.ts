@@ -1,5 +1,5 @@
 // The hard cases: who is right in how many, and from which value of its parameter on each goes wrong.
-import {h, p, unfolding, type Child} from "../dom";
+import {drawn, h, p, unfolding, type Child} from "../dom";
 import {heatTable} from "../heat_table";
 import type {Hard, WrongFamily} from "../page";
 import type {Section} from "../section";
@@ -7,18 +7,13 @@ import {showCell} from "../showing";
 import {left, table, textRow, textTable, type Cell} from "../table";
 import {canShow, showInView} from "../view_slot";
 
-// Drawn by the program, with colours of this page; a shadow root keeps the picture's style its own.
 function picture({id, picture: svg}: WrongFamily): HTMLElement {
-  const place = h("div"),
-    root = place.attachShadow({mode: "open"});
-  root.innerHTML = svg;
-  root.addEventListener("click", (event) => {
+  return drawn(svg, (event) => {
     const square = (event.target as Element).closest<SVGElement>("[data-frame]");
     if (!square || !canShow(id)) return;
     const {detector, frame} = square.dataset;
     showInView({scene: id, detector, frame: Number(frame)});
   });
-  return place;
 }
 
 // To where each goes wrong first, or to the case without an answer.

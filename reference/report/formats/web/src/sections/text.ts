@@ -1,5 +1,5 @@
 // A section of texts and tables alone, as the other reports have it.
-import {h, p, type Child} from "../dom";
+import {drawn, h, p, type Child} from "../dom";
 import type {Block, Page, TextSection} from "../page";
 import type {Section} from "../section";
 import {textTable, withCode} from "../table";
@@ -11,6 +11,11 @@ function shown(block: Block, section: string): Child[] {
   if ("text" in block) return [p(...withCode(block.text))];
   if ("heading" in block) return [h("h3", {}, ...withCode(block.heading))];
   if ("items" in block) return [list(block.items)];
+  if ("picture" in block) {
+    const label = {role: "region", tabindex: 0, "aria-label": block.what};
+    const figure = h("figure", {class: "chart"}, drawn(block.picture));
+    return [h("div", {class: "scroll", ...label}, figure)];
+  }
   const {id, title} = block.table;
   return [
     title && h("h3", {id}, ...withCode(title)),

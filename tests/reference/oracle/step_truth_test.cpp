@@ -1,191 +1,31 @@
-// The oracle of steps against brute force in exact arithmetic over all pairs of elements.
+// The oracle of steps against brute force in rational arithmetic over all pairs of elements; more
+// of it is in tests/odd/odd_steps.cpp.
 
 #include "reference/oracle/step_truth.h"
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <map>
-
 #include "core/types/impact.h"
-#include "core/types/mesh_edges.h"
-#include "reference/oracle/elementary_impact.h"
 #include "reference/oracle/oracle.h"
-#include "reference/oracle/rational_clipping.h"
+#include "tests/odd/step_brute_force.h"
 #include "tests/support/step_scenes.h"
 
 namespace contactcheck::test::step_truth {
 namespace {
 
-using oracle::elementary_impact;
 using oracle::FirstImpact;
-using oracle::rational::triangles_intersect_by_clipping;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 constexpr oracle::WantedSteps kBoth{true, true};
 
-/// All that the oracle gives, by the definitions of the levels.
-class ExactBruteForce {
- public:
-  explicit ExactBruteForce(const StepScene& scene) : scene_(scene) {
-    for (const Body& body : scene.bodies) edges_.push_back(mesh_edges(body.shape->mesh.triangles));
-    const auto count = static_cast<std::uint32_t>(scene_.bodies.size());
-    for (std::uint32_t a = 0; a < count; ++a) {
-      judge_own(a);
-      for (std::uint32_t b = a + 1; b < count; ++b) judge_pair(a, b);
-    }
-    contacts.canonicalize();
-    std::sort(at_start.begin(), at_start.end());
-  }
-
-  ContactSet contacts;
-  std::vector<ElementPair> at_start;
-  /// Certified intervals of all impacts of two bodies; both 0 where triangles touch at the start.
-  std::map<BodyPair, std::vector<Impact>> impacts;
-
- private:
-  const TriangleMesh& mesh(std::uint32_t body) const { return scene_.bodies[body].shape->mesh; }
-  oracle::rational::TriangleCorners corners(std::uint32_t body, std::uint32_t t) const {
-    const Triangle& of = mesh(body).triangles[t];
-    const std::vector<Vec3>& at = scene_.start.vertices[body];
-    return {at[of[0]], at[of[1]], at[of[2]]};
-  }
-  Impact ask(ImpactKind kind, const std::array<std::uint32_t, 4>& bodies,
-             const std::array<std::uint32_t, 4>& vertices) const {
-    ImpactQuery query{kind, {}, {}};
-    for (std::size_t i = 0; i < 4; ++i) {
-      query.start[i] = scene_.start.vertices[bodies[i]][vertices[i]];
-      query.end[i] = scene_.end.vertices[bodies[i]][vertices[i]];
-    }
-    return elementary_impact(query);
-  }
-  Impact vertex_face(std::uint32_t a, std::uint32_t v, std::uint32_t b, std::uint32_t t) const {
-    const Triangle& of = mesh(b).triangles[t];
-    return ask(ImpactKind::vertex_triangle, {a, b, b, b}, {v, of[0], of[1], of[2]});
-  }
-  Impact edge_edge(std::uint32_t a, const Edge& e, std::uint32_t b, const Edge& f) const {
-    return ask(ImpactKind::edge_edge, {a, a, b, b}, {e[0], e[1], f[0], f[1]});
-  }
-
-  using Table = std::vector<std::vector<char>>;
-  Table vertices_with_faces(std::uint32_t a, std::uint32_t b, std::vector<Impact>& found) {
-    Table table(mesh(a).vertices.size(), std::vector<char>(mesh(b).triangles.size()));
-    for (std::uint32_t v = 0; v < table.size(); ++v)
-      for (std::uint32_t t = 0; t < table[v].size(); ++t) {
-        const Impact impact = vertex_face(a, v, b, t);
-        if (!impact.contact) continue;
-        table[v][t] = 1;
-        found.push_back(impact);
-        contacts.impact_vertices.push_back({a, b, v, t});
-      }
-    return table;
-  }
-
-  void judge_pair(std::uint32_t a, std::uint32_t b) {
-    std::vector<Impact> found;
-    const Table ab = vertices_with_faces(a, b, found), ba = vertices_with_faces(b, a, found);
-    Table edges(edges_[a].edges.size(), std::vector<char>(edges_[b].edges.size()));
-    for (std::uint32_t e = 0; e < edges.size(); ++e)
-      for (std::uint32_t f = 0; f < edges[e].size(); ++f) {
-        const Impact impact = edge_edge(a, edges_[a].edges[e], b, edges_[b].edges[f]);
-        if (!impact.contact) continue;
-        edges[e][f] = 1;
-        found.push_back(impact);
-        contacts.impact_edges.push_back({a, b, e, f});
-      }
-    for (std::uint32_t s = 0; s < mesh(a).triangles.size(); ++s)
-      for (std::uint32_t t = 0; t < mesh(b).triangles.size(); ++t) {
-        bool meet = triangles_intersect_by_clipping(corners(a, s), corners(b, t));
-        if (meet) found.push_back({true, true, 0, 0}), at_start.push_back({a, b, s, t});
-        for (std::size_t i = 0; i < 3; ++i) {
-          meet |= ab[mesh(a).triangles[s][i]][t] != 0 || ba[mesh(b).triangles[t][i]][s] != 0;
-          for (std::size_t j = 0; j < 3; ++j) {
-            const std::uint32_t e = edges_[a].of_triangle[s][i], f = edges_[b].of_triangle[t][j];
-            meet |= e != MeshEdges::kNone && f != MeshEdges::kNone && edges[e][f] != 0;
-          }
-        }
-        if (meet) contacts.impact_triangles.push_back({a, b, s, t});
-      }
-    if (!found.empty()) impacts[{a, b}] = std::move(found);
-  }
-
-  void judge_own(std::uint32_t body) {
-    const BodyShape& shape = *scene_.bodies[body].shape;
-    const std::vector<Vec3>& rest = shape.mesh.vertices;
-    const auto share = [&](const auto& some, const auto& others) {
-      for (const std::uint32_t v : some)
-        for (const std::uint32_t w : others)
-          if (v == w || (!shape.welded.empty() && rest[v] == rest[w])) return true;
-      return false;
-    };
-    for (std::uint32_t v = 0; v < rest.size(); ++v)
-      for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t)
-        if (!share(std::array{v}, shape.mesh.triangles[t]) && vertex_face(body, v, body, t).contact)
-          contacts.self_impact_vertices.push_back({body, body, v, t});
-    const std::vector<Edge>& edges = edges_[body].edges;
-    for (std::uint32_t e = 0; e < edges.size(); ++e)
-      for (std::uint32_t f = e + 1; f < edges.size(); ++f)
-        if (!share(edges[e], edges[f]) && edge_edge(body, edges[e], body, edges[f]).contact)
-          contacts.self_impact_edges.push_back({body, e, f});
-  }
-
-  const StepScene& scene_;
-  std::vector<MeshEdges> edges_;
-};
-
-/// What is wrong with the first times; empty if nothing is.
-std::string fault_of_times(const std::vector<FirstImpact>& first,
-                           const std::map<BodyPair, std::vector<Impact>>& impacts) {
-  if (first.size() != impacts.size()) return "not one first time per pair of bodies";
-  auto next = impacts.begin();
-  for (const FirstImpact& f : first) {
-    const auto& [bodies, all] = *next++;
-    if (f.bodies != bodies) return "other bodies";
-    Impact least{true, false, 2, 2};
-    for (const Impact& impact : all) {
-      least.starts_in_contact |= impact.starts_in_contact;
-      least.earliest = std::min(least.earliest, impact.earliest);
-      least.latest = std::min(least.latest, impact.latest);
-    }
-    if (f.starts_in_contact != least.starts_in_contact) return "not as it starts";
-    if (f.starts_in_contact && (f.earliest != 0 || f.latest != 0)) return "a start that is not 0";
-    if (!(0 <= f.earliest && f.earliest <= f.latest && f.latest <= 1)) return "no interval";
-    if (f.latest - f.earliest > kImpactTimeWidth) return "too wide an interval";
-    // Both certify the same number.
-    if (f.earliest > least.latest || f.latest < least.earliest) return "another time";
-  }
-  return "";
-}
-
-std::string fault(const oracle::StepTruth& truth, const ExactBruteForce& expected) {
-  const ContactSet &got = truth.contacts, &all = expected.contacts;
-  if (got.impact_vertices != all.impact_vertices) return "vertices";
-  if (got.impact_edges != all.impact_edges) return "edges";
-  if (got.impact_triangles != all.impact_triangles) return "triangles";
-  if (got.self_impact_vertices != all.self_impact_vertices) return "own vertices";
-  if (got.self_impact_edges != all.self_impact_edges) return "own edges";
-  for (const BodyImpact& impact : got.impacts)
+std::string fault(const oracle::StepTruth& truth, const StepBruteForce& expected) {
+  if (const std::string list = different_list(truth.contacts, expected.contacts()); !list.empty())
+    return list;
+  for (const BodyImpact& impact : truth.contacts.impacts)
     if (impact.time) return "a time in the lists";
-  return fault_of_times(truth.first, expected.impacts);
-}
-
-/// Pasteable: the vertices at both ends, and the triangles.
-std::string text(const StepScene& scene) {
-  std::string out = scene.name;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    out += "\nbody " + std::to_string(b);
-    for (const Triangle& t : scene.bodies[b].shape->mesh.triangles)
-      out += " {" + std::to_string(t[0]) + "," + std::to_string(t[1]) + "," + std::to_string(t[2]) +
-             "}";
-    for (std::size_t v = 0; v < scene.start.vertices[b].size(); ++v) {
-      out += "\n ";
-      for (const FrameData* data : {&scene.start, &scene.end})
-        for (int k = 0; k < 3; ++k) out += " " + std::to_string(data->vertices[b][v][k]);
-    }
-  }
-  return out;
+  return expected.fault_of_first(truth.first, false);
 }
 
 struct Seen {
@@ -194,9 +34,9 @@ struct Seen {
 
 /// False after a fault.
 bool agree(const StepScene& scene, Seen& seen) {
-  const ExactBruteForce expected(scene);
+  const StepBruteForce expected(scene);
   oracle::StepOracle oracle(scene.bodies);
-  const oracle::StepTruth truth = oracle.judge(scene.step(), expected.at_start, kBoth);
+  const oracle::StepTruth truth = oracle.judge(scene.step(), expected.at_start(), kBoth);
   const std::string wrong = fault(truth, expected);
   EXPECT_EQ(wrong, "") << (wrong.empty() ? "" : text(scene));
   ++seen.steps;
@@ -325,7 +165,7 @@ TEST(StepTruth, StepWithoutMotionHasTheTruthOfTheFrame) {
     const ContactSet frame = frames.judge(scene.start.frame(), {}).surface;
     const oracle::StepTruth truth = steps.judge(scene.step(), frame.triangles, {});
     ASSERT_EQ(truth.contacts.impact_triangles, frame.triangles) << text(scene);
-    ASSERT_EQ(truth.contacts.impact_triangles, ExactBruteForce(scene).at_start) << text(scene);
+    ASSERT_EQ(truth.contacts.impact_triangles, StepBruteForce(scene).at_start()) << text(scene);
     ASSERT_EQ(truth.first.size(), frame.bodies.size());
     for (std::size_t i = 0; i < truth.first.size(); ++i) {
       ASSERT_EQ(truth.first[i].bodies, frame.bodies[i]);

@@ -121,6 +121,7 @@ void add_count(CLI::App& run, RunWords& words) {
          "number of drawn scenes (default 20)")
       ->check(whole_in(1, scene::kMostDrawnScenes))
       ->type_name("N");
+  run.add_flag("--steps", words.run.steps, "drawn scenes are judged between frames");
 }
 
 // `arguments` must outlive the command.
@@ -187,6 +188,7 @@ void add_run(CommandLine& line) {
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
       "  contactcheck run drawn --seed 7 --count 200 --save-scene drawn-7\n"
       "  contactcheck run drawn-7-3 --no-timing\n"
+      "  contactcheck run drawn --steps --seed 7 --count 100\n"
       "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
       "  contactcheck run bunny-touch --detector ./libmine.so:leaf=8 --detector fcl-aabb\n"
       "  contactcheck run bunny-touch --detector-cmd \"python3 mine.py\" --detector fcl-aabb\n"

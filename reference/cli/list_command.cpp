@@ -123,7 +123,8 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
   if (all || arguments.suites) {
     sections.next();
     auto suites = scene::list_suites(fixtures);
-    suites.push_back(scene::read_entry(fixtures / "drawn.json", "rules"));
+    for (const char* rules : {"drawn.json", "drawn-steps.json"})
+      suites.push_back(scene::read_entry(fixtures / rules, "rules"));
     std::ranges::sort(suites, {}, &scene::CatalogueEntry::id);
     print_entries("Suites", suites);
   }

@@ -38,16 +38,17 @@ constexpr RangeRule kRangeRules[] = {
     {"touch_depth", &DrawRules::touch_depth, 1e-12, 1.0},
     {"deep_depth", &DrawRules::deep_depth, 1e-12, 1.0}};
 
-DrawRange parse_range(const text::JsonField& field, const RangeRule& rule) {
+DrawRange parse_range(const text::JsonField& field, const text::NumberRange& allowed,
+                      bool whole = false) {
   if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 2)
     field.refuse("an array of the lowest and the highest value");
   DrawRange range;
   const std::vector<text::JsonField> ends = field.items();
   for (std::size_t i = 0; i < 2; ++i) {
     double& end = i == 0 ? range.low : range.high;
-    end = rule.whole ? static_cast<double>(ends[i].whole(static_cast<std::size_t>(rule.low),
-                                                         static_cast<std::size_t>(rule.high)))
-                     : ends[i].number({rule.low, false, rule.high, false});
+    end = whole ? static_cast<double>(ends[i].whole(static_cast<std::size_t>(allowed.low),
+                                                    static_cast<std::size_t>(allowed.high)))
+                : ends[i].number(allowed);
   }
   if (!(range.low <= range.high))
     field.fail("is reversed: its lowest value " + text::shown(range.low) +
@@ -65,13 +66,22 @@ std::vector<std::string> parse_names(const text::JsonField& field) {
   return names;
 }
 
+DrawnSteps parse_steps(const text::JsonField& field) {
+  field.only_keys({"most_swept", "self_share", "self_twist"});
+  DrawnSteps steps;
+  steps.most_swept = field.at("most_swept").number({1.0, false, 1e9, false});
+  steps.self_share = field.at("self_share").number({0.0, false, 1.0, false});
+  steps.self_twist = parse_range(field.at("self_twist"), {0.0, true, 360.0, false});
+  return steps;
+}
+
 }  // namespace
 
 DrawRules parse_draw_rules(const std::string& text, const std::string& document) {
   const text::JsonValue value = text::parse_json(text, document);
   const text::JsonField root(value, document);
-  std::vector<std::string> keys = {"id",     "title",  "detectors",
-                                   "meshes", "shares", "most_triangles"};
+  std::vector<std::string> keys = {"id",     "title",          "detectors", "meshes",
+                                   "shares", "most_triangles", "steps"};
   for (const RangeRule& rule : kRangeRules) keys.emplace_back(rule.key);
   root.only_keys(keys);
   text::parse_id(root.at("id"));
@@ -91,12 +101,19 @@ DrawRules parse_draw_rules(const std::string& text, const std::string& document)
   if (!(sum > 0.0)) shares.fail("has no share above 0: nothing would happen");
   rules.most_triangles = root.at("most_triangles").whole(1, kMostTriangles);
   for (const RangeRule& rule : kRangeRules)
-    rules.*rule.range = parse_range(root.at(rule.key), rule);
+    rules.*rule.range =
+        parse_range(root.at(rule.key), {rule.low, false, rule.high, false}, rule.whole);
   const double fewest = rules.bodies.high * rules.triangles.low;
   if (static_cast<double>(rules.most_triangles) < fewest)
     root.at("most_triangles")
         .refuse("at least " + text::shown(fewest) + ", so that " + text::shown(rules.bodies.high) +
                 " bodies can have " + text::shown(rules.triangles.low) + " triangles each");
+  if (!root.has("steps")) return rules;
+  rules.steps = parse_steps(root.at("steps"));
+  if (!(rules.speed.low > 0.0))
+    root.at("speed").items()[0].refuse("above 0, since speeds of steps are drawn log-uniform");
+  if (rules.frames.low < 2.0)
+    root.at("frames").items()[0].refuse("at least 2: a step is from a frame to the next");
   return rules;
 }
 

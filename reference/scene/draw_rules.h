@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,19 @@ struct DrawRange {
   double low = 0.0, high = 0.0;
 };
 
-enum class Happening { kApart, kNearMiss, kGraze, kTouch, kDeep, kPile, kNested };
-inline constexpr std::array<const char*, 7> kHappenings = {"apart", "near-miss", "graze", "touch",
-                                                           "deep",  "pile",      "nested"};
+enum class Happening { kApart, kNearMiss, kGraze, kTouch, kDeep, kPile, kNested, kPass };
+inline constexpr std::array<const char*, 8> kHappenings = {"apart", "near-miss", "graze",  "touch",
+                                                           "deep",  "pile",      "nested", "pass"};
 inline const char* name_of(Happening what) { return kHappenings[static_cast<std::size_t>(what)]; }
+
+/// Of scenes that are judged between frames. In these, speed is drawn log-uniform.
+struct DrawnSteps {
+  /// Largest triangles of a scene times speed. Elements whose boxes over a step meet grow with its
+  /// square.
+  double most_swept = 0.0;
+  double self_share = 0.0;  ///< of the scenes: also judged for contact of bodies with themselves
+  DrawRange self_twist;     ///< degrees per step, log-uniform, of one body of each of these
+};
 
 struct DrawRules {
   std::string title;
@@ -31,6 +41,7 @@ struct DrawRules {
   DrawRange twist, bend, taper, stretch;              ///< degrees, degrees, amounts
   /// In the smaller body's size, log-uniform.
   DrawRange apart_gap, near_gap, graze_depth, touch_depth, deep_depth;
+  std::optional<DrawnSteps> steps;  ///< none: scenes are judged in their frames
 };
 
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed

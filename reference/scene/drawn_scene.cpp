@@ -1,6 +1,7 @@
 #include "reference/scene/drawn_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -31,6 +32,9 @@ using text::shown;
 
 constexpr double kTimeStep = 0x1p-5;  // seconds: times of frames are exact
 constexpr const char* kLevels = R"(["body", "containment", "cell", "triangle", "vertex"])";
+constexpr const char* kStepLevels = R"(["impact-vf", "impact-ee", "impact-triangle", "impact"])";
+constexpr const char* kSelfStepLevels =
+    R"(["impact-vf", "impact-ee", "impact-triangle", "impact", "impact-self-vf", "impact-self-ee"])";
 // In the size of the first body: the gap of meeting bodies that do not meet yet.
 constexpr double kClearGap = 1e-3;
 // What is nested: its size, of that of the body around it, and how that one may deform.
@@ -39,6 +43,8 @@ constexpr int kMostAims = 12, kMostHalvings = 8;
 // Tumbling and deforming move no point faster than half the drawn speed: degrees and amounts per
 // size of the body (its points are at most 0.87 sizes from its centre).
 constexpr double kTumble = 30.0, kTwistTurn = 60.0, kAmountGrowth = 0.5;
+// A twist that moves points by the size of the body: about so many degrees.
+constexpr double kTwistBySize = 120.0;
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
@@ -77,6 +83,8 @@ struct BodyPlan {
   Motion motion;
   double distance = 0.0;              ///< to what it meets, of the smaller size; below 0: a depth
   double leaving = 1.0;               ///< of the drawn speed, outside the frames of the contact
+  double slide = 0.0;                 ///< sideways, per frame
+  bool passes = false;                ///< from one side of what it meets to the other, and back
   std::optional<std::size_t> inside;  ///< of that body
 };
 
@@ -91,17 +99,20 @@ class Drawing {
     SeededRandom bodies = named("bodies"), triangles = named("triangles"), cells = named("cells"),
                  frames = named("frames");
     bodies_ = whole_log(bodies, rules_.bodies);
-    triangles_ = std::min(whole_log(triangles, rules_.triangles), rules_.most_triangles / bodies_);
+    speed_ = draw_speed();
+    draw_steps();
+    triangles_ = std::min({whole_log(triangles, rules_.triangles), rules_.most_triangles / bodies_,
+                           swept_triangles_});
     cells_ = whole_log(cells, rules_.cells);
     frames_ = frames.whole(static_cast<std::size_t>(rules_.frames.low),
                            static_cast<std::size_t>(rules_.frames.high));
     ratio_ = named("size_ratio").log_between(rules_.size_ratio.low, rules_.size_ratio.high);
-    speed_ = named("speed").between(rules_.speed.low, rules_.speed.high);
     share_ = named("contact_share").between(rules_.contact_share.low, rules_.contact_share.high);
     const auto window = std::ceil(share_ * static_cast<double>(frames_));
     length_ = std::clamp<std::size_t>(static_cast<std::size_t>(window), 1, frames_);
     begin_ = named("contact begins").below(frames_ - length_ + 1);
     for (std::size_t b = 0; b < bodies_; ++b) plans_.push_back(draw_body(b));
+    if (self_twist_ > 0.0) add_twist(plans_[named("self twist").below(bodies_)]);
   }
 
   Drawn drawn() const {
@@ -168,6 +179,11 @@ class Drawing {
   std::size_t begin() const { return begin_; }
   std::size_t end() const { return begin_ + length_; }
   double speed() const { return speed_; }
+  /// Of all bodies together, per frame.
+  const Vec3& drift() const { return drift_; }
+  const char* levels() const {
+    return !rules_.steps ? kLevels : self_twist_ > 0.0 ? kSelfStepLevels : kStepLevels;
+  }
   std::vector<BodyPlan>& plans() { return plans_; }
 
  private:
@@ -179,6 +195,39 @@ class Drawing {
   static bool is_shape(const std::string& name) {
     return name == "box" || name == "letter" || name == "sphere" || name == "teapot" ||
            name == "torus";
+  }
+
+  double draw_speed() const {
+    SeededRandom random = named("speed");
+    return rules_.steps ? random.log_between(rules_.speed.low, rules_.speed.high)
+                        : random.between(rules_.speed.low, rules_.speed.high);
+  }
+
+  // What steps have beside speeds, and fewer triangles where they sweep far.
+  void draw_steps() {
+    if (!rules_.steps) return;
+    const DrawnSteps& steps = *rules_.steps;
+    SeededRandom self = named("self"), drift = named("drift");
+    const double twist = self.log_between(steps.self_twist.low, steps.self_twist.high);
+    if (self.unit() < steps.self_share) self_twist_ = twist;
+    const Vec3 direction = drift.direction();
+    if (drift.below(2) == 0) drift_ = drift.unit() * speed_ * direction;
+    // Bodies that change sides move by their own thickness and more.
+    const double fastest =
+        std::max({speed_, self_twist_ / kTwistBySize, what_ == Happening::kPass ? 1.0 : 0.0});
+    const double most = steps.most_swept / (fastest * static_cast<double>(bodies_));
+    swept_triangles_ = static_cast<std::size_t>(std::max(most, rules_.triangles.low));
+  }
+
+  // To and fro, so that a body of few frames is never wound up.
+  void add_twist(BodyPlan& plan) const {
+    SeededRandom random = named("self twist axis");
+    Curve curve{{}, false};
+    const double start = random.between(-0.5, 0.5) * self_twist_;
+    for (std::size_t f = 0; f < frames_; ++f)
+      curve.keys.push_back(
+          {static_cast<double>(f) * kTimeStep, start + (f % 2 == 0 ? 0.0 : self_twist_)});
+    plan.motion.deformers.push_back(Twist{static_cast<int>(random.below(3)), curve});
   }
 
   // Simplified to the triangles that are drawn, or simplified less and subdivided to them.
@@ -219,6 +268,7 @@ class Drawing {
     if (!meets) return log(rules_.apart_gap);
     switch (what_) {
       case Happening::kNearMiss:
+      case Happening::kPass:
         return log(rules_.near_gap);
       case Happening::kGraze:
         return -log(rules_.graze_depth);
@@ -289,6 +339,8 @@ class Drawing {
     plan.distance = draw_distance(b, named("distance", b));
     plan.leaving = b == 0 ? 0.0 : named("leaving", b).between(0.5, 1.0);
     if (b == 1) plan.leaving = 1.0;
+    plan.passes = what_ == Happening::kPass && plan.distance <= rules_.near_gap.high;
+    if (rules_.steps) plan.slide = named("slide", b).between(-1.0, 1.0) * speed_;
     return plan;
   }
 
@@ -298,6 +350,9 @@ class Drawing {
   Happening what_ = Happening::kApart;
   std::size_t bodies_ = 0, triangles_ = 0, cells_ = 0, frames_ = 0, begin_ = 0, length_ = 0;
   double ratio_ = 1.0, speed_ = 0.0, share_ = 0.0;
+  double self_twist_ = 0.0;  // degrees per step; 0: contact of bodies with themselves is not judged
+  Vec3 drift_ = Vec3::Zero();
+  std::size_t swept_triangles_ = std::numeric_limits<std::size_t>::max();  // most of a body
   std::vector<BodyPlan> plans_;
 };
 
@@ -405,13 +460,35 @@ class Placing {
     return way;
   }
 
+  // The way in a frame, of a body that slides.
+  Way way_at(std::size_t f, std::size_t b, Way way) const {
+    const double slid = static_cast<double>(f) - static_cast<double>(drawing_.begin());
+    if (plan(b).slide != 0.0) way.aside[(way.from.axis + 1) % 3] += slid * plan(b).slide;
+    return way;
+  }
+
+  // From side to side, frame by frame, at its distance.
+  void place_passing(std::size_t b, const Way& way) {
+    const double distance = plan(b).distance * way.smaller;
+    std::array<double, 2> last = {};  // by side, where nothing is on the way
+    for (std::size_t f = 0; f < frames_; ++f) {
+      Way from = way_at(f, b, way);
+      if (f % 2 == 1) from.from.sign = -from.from.sign;
+      last[f % 2] = touch(b, f, from).value_or(last[f % 2]);
+      offsets_[b][f] = from.aside + (last[f % 2] + distance) * from.from.vector();
+    }
+  }
+
   void place_outside(std::size_t b) {
-    const Way way = draw_way(b);
+    const Way drawn = draw_way(b);
+    if (plan(b).passes) return place_passing(b, drawn);
+    Way way = drawn;
     const Vec3 along = way.from.vector();
     const double distance = plan(b).distance * way.smaller;
     // Where nothing is on the way: what was found in the frame before.
     double last = 0.0;
     const auto reach = [&](std::size_t f) {
+      way = way_at(f, b, drawn);
       last = touch(b, f, way).value_or(last);
       return last;
     };
@@ -427,7 +504,8 @@ class Placing {
     const double gap = std::max(distance, kClearGap);
     const auto leave = [&](std::size_t f, std::size_t steps) {
       const double away = plan(b).leaving * drawing_.speed() * static_cast<double>(steps);
-      offsets_[b][f] = way.aside + (reach(f) + gap + away) * along;
+      const double at = reach(f);
+      offsets_[b][f] = way.aside + (at + gap + away) * along;
     };
     reach(drawing_.end() - 1);
     for (std::size_t f = drawing_.end(); f < frames_; ++f) leave(f, f - drawing_.end() + 1);
@@ -542,8 +620,8 @@ std::string scene_text(const DrawnSpec& spec, Drawing& drawing, const std::vecto
   std::string out = "{\n  \"id\": \"" + drawn_id(spec) + "\",\n  \"title\": \"" + title_of(drawn) +
                     "\",\n  \"drawn\": " + drawn_text(drawn) +
                     ",\n  \"frames\": " + std::to_string(drawing.frames()) +
-                    ",\n  \"time_step\": " + shown(kTimeStep) + ",\n  \"levels\": " + kLevels +
-                    ",\n  \"bodies\": [";
+                    ",\n  \"time_step\": " + shown(kTimeStep) +
+                    ",\n  \"levels\": " + drawing.levels() + ",\n  \"bodies\": [";
   for (std::size_t b = 0; b < drawing.plans().size(); ++b) {
     const BodyPlan& plan = drawing.plans()[b];
     const Kind& kind = kinds[plan.kind];
@@ -560,7 +638,9 @@ std::string scene_text(const DrawnSpec& spec, Drawing& drawing, const std::vecto
 }  // namespace
 
 std::string drawn_id(const DrawnSpec& spec) {
-  return "drawn-" + std::to_string(spec.seed) + "-" + std::to_string(spec.number);
+  const bool steps = parse_draw_rules(spec.rules, spec.rules_name).steps.has_value();
+  return (steps ? "drawn-steps-" : "drawn-") + std::to_string(spec.seed) + "-" +
+         std::to_string(spec.number);
 }
 
 Drawn draw_parameters(const DrawnSpec& spec) { return Drawing(spec).drawn(); }
@@ -593,7 +673,9 @@ DrawnScene draw_scene(const DrawnSpec& spec, const fs::path& folder) {
     RigidPath& path = drawing.plans()[b].motion.path;
     for (const Vec3& axis : turn) path.spins.push_back({axis, {{{0.0, 180.0}}, false}});
     for (std::size_t f = 0; f < drawing.frames(); ++f) {
-      const Vec3 at = half_turned(half_turned(offsets[b][f], turn[0]), turn[1]);
+      Vec3 offset = offsets[b][f];
+      if (!drawing.drift().isZero(0.0)) offset += static_cast<double>(f) * drawing.drift();
+      const Vec3 at = half_turned(half_turned(offset, turn[0]), turn[1]);
       for (int k = 0; k < 3; ++k)
         path.position[k].keys.push_back({static_cast<double>(f) * kTimeStep, at[k]});
     }

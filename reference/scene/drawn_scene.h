@@ -15,7 +15,8 @@ inline constexpr std::uint64_t kLargestDrawSeed = (std::uint64_t{1} << 53) - 1;
 inline constexpr std::size_t kMostDrawnScenes = 100'000;
 inline constexpr std::size_t kMostRedraws = 5;
 
-/// "drawn-7-3": the third scene of seed 7.
+/// "drawn-7-3": the third scene of seed 7; "drawn-steps-7-3" by rules of steps.
+/// @throws InputError for bad rules
 std::string drawn_id(const DrawnSpec& spec);
 
 /// Draws the parameters without building anything, which is fast.
@@ -32,7 +33,9 @@ struct DrawnScene {
 /// one. Then it is moved back by a gap or forward by a depth, in each frame anew, since all bodies
 /// deform and rotate. Outside the contact frames it moves away at the drawn speed. Contact is
 /// enforced in every contact frame: by an exact test, or the depth is halved. A nested body lies
-/// inside a ball or box that is large enough for it. `folder`: the folder of the text, from which
+/// inside a ball or box that is large enough for it. By rules of steps bodies also slide sideways,
+/// half of the scenes drift as a whole, and bodies that pass are on the other side of what they
+/// meet in every second frame. `folder`: the folder of the text, from which
 /// it names the meshes of `spec`; empty: unchanged names.
 /// @throws InputError for bad rules, and for a mesh that cannot be loaded or embedded in a lattice
 DrawnScene draw_scene(const DrawnSpec& spec, const std::filesystem::path& folder = {});

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSuite = "drawn";
+constexpr const char *kSuite = "drawn", *kStepSuite = "drawn-steps";
 constexpr std::size_t kUsualCount = 20;
 
 bool is_file(const std::string& name) {
@@ -94,14 +94,16 @@ bool is_in(const std::vector<SceneTask>& tasks, const std::string& id) {
 std::optional<DrawnTarget> find_drawn(const std::string& name, const RunTargets& wanted) {
   scene::DrawnSpec spec;
   std::size_t first = 1, last = wanted.count.value_or(kUsualCount);
-  fs::path file = scene::fixtures_directory() / "drawn.json";
   spec.seed = wanted.seed;
-  const std::string prefix = std::string(kSuite) + "-";
-  if (name.starts_with(prefix) && !is_file(name)) {
-    const auto numbers = numbers_of(name.substr(prefix.size()));
+  const bool named_steps = name == kStepSuite || name.starts_with(std::string(kStepSuite) + "-");
+  const std::string suite = named_steps ? kStepSuite : kSuite;
+  fs::path file = scene::fixtures_directory() /
+                  (std::string(named_steps || wanted.steps ? kStepSuite : kSuite) + ".json");
+  if (name.starts_with(suite + "-") && !is_file(name)) {
+    const auto numbers = numbers_of(name.substr(suite.size() + 1));
     if (!numbers)
-      throw InputError(text::in_quotes(name) +
-                       " is no drawn scene: drawn-S-I is scene I of seed S, with I from 1 to " +
+      throw InputError(text::in_quotes(name) + " is no drawn scene: " + suite +
+                       "-S-I is scene I of seed S, with I from 1 to " +
                        std::to_string(scene::kMostDrawnScenes));
     spec.seed = numbers->first;
     first = last = numbers->second;
@@ -110,14 +112,17 @@ std::optional<DrawnTarget> find_drawn(const std::string& name, const RunTargets&
     if (!scene::holds_draw_rules(text::parse_json(text, "scene file " + text::in_quotes(name))))
       return std::nullopt;
     file = name;
-  } else if (name != kSuite) {
+  } else if (name != suite) {
     return std::nullopt;
   }
   spec.rules = text::read_file_bytes(file, "rules file");
   spec.rules_name = "rules file " + text::in_quotes(file.string());
   spec.meshes = wanted.meshes.meshes;
+  const scene::DrawRules rules = scene::parse_draw_rules(spec.rules, spec.rules_name);
+  if (wanted.steps && !rules.steps)
+    throw InputError("--steps: the " + spec.rules_name + " has no \"steps\"");
   DrawnTarget out;
-  out.detectors = scene::parse_draw_rules(spec.rules, spec.rules_name).detectors;
+  out.detectors = rules.detectors;
   check_flags(name, wanted);
   for (std::size_t number = first; number <= last; ++number) {
     spec.number = number;

@@ -19,7 +19,8 @@ struct DrawnTarget {
 };
 
 /// What `name` stands for: `drawn` and a file of rules for as many scenes as --count says, of the
-/// seed of --seed; `drawn-S-I` for one of them. Nothing where it names something else.
+/// seed of --seed; `drawn-S-I` for one of them. `drawn-steps` in place of `drawn`, or --steps, for
+/// scenes that are judged between frames. Nothing where it names something else.
 /// @throws InputError for bad rules or meshes, or what is no such scene
 std::optional<DrawnTarget> find_drawn(const std::string& name, const RunTargets& wanted);
 

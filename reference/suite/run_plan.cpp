@@ -109,6 +109,8 @@ class RunPlanner {
     const bool any_drawn = targets.size() < wanted_.targets.size();
     if (wanted_.count && !any_drawn)
       throw InputError("--count: no target of this run is the suite drawn, whose scenes it counts");
+    if (wanted_.steps && !any_drawn)
+      throw InputError("--steps: no target of this run is the suite drawn, whose steps it draws");
     if (!wanted_.meshes.meshes.empty() && !any_drawn) {
       add_meshes(targets.empty() && !wanted_.pairs);
     } else if (wanted_.targets.empty() && !wanted_.pairs) {

@@ -22,6 +22,7 @@ struct RunTargets {
   std::size_t frames = 0;              ///< of each scene; 0: its own
   std::uint64_t seed = RunSettings{}.seed;
   std::optional<std::size_t> count;      ///< of scenes of the suite drawn
+  bool steps = false;                    ///< scenes of the suite drawn are judged between frames
   std::optional<scene::PairSpec> pairs;  ///< adds a scene of random pairs to the targets
   /// A scene of these beside the targets, or what drawn ones among them are made of; no mesh: none.
   scene::MeshSceneRequest meshes;

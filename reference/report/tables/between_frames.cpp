@@ -5,9 +5,11 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "reference/report/tables/format.h"
 #include "reference/report/tables/run_row.h"
+#include "reference/report/tables/scene_choice.h"
 #include "reference/report/tables/section.h"
 #include "reference/results/references.h"
 
@@ -46,7 +48,8 @@ TitledTable scenes_table(const results::Index& index) {
        {.title = "self vf", .left = false, .meaning = "the same within a body", .spare = 2},
        {.title = "self ee", .left = false, .meaning = "the same within a body", .spare = 1}},
       {}};
-  for (const Scene& scene : index.results().scenes) {
+  for (const Scene* shown : shown_scenes(index.results())) {
+    const Scene& scene = *shown;
     if (!scene.impacts) continue;
     const results::SceneImpacts& impacts = *scene.impacts;
     Range motion;
@@ -125,8 +128,10 @@ TitledTable detectors_table(const results::Index& index) {
   for (const char* reference : results::kStepReferences)
     out.columns.push_back(reference_column(
         reference, std::string("time of ") + reference + " / time of this detector, playback"));
+  std::set<std::string> shown;
+  for (const Scene* scene : shown_scenes(index.results())) shown.insert(scene->id);
   for (const Run& run : index.results().runs) {
-    if (!run.impacts) continue;
+    if (!run.impacts || !shown.contains(run.scene)) continue;
     const results::Impacts& impacts = *run.impacts;
     std::vector<std::string> row = {run.scene,
                                     run.detector,

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "reference/report/tables/error_counts.h"
@@ -42,7 +44,22 @@ std::string name_in_words(const std::string& parameter) {
   return found == words.end() ? parameter : found->second;
 }
 
+// True for what was drawn as steps, judged or not.
+bool drawn_as_steps(const Scene& scene) {
+  return scene.impacts || scene.id.starts_with("drawn-steps-");
+}
+
 // How often each detector is wrong.
+
+using Statuses = std::map<results::Status, std::size_t>;
+
+// "1 error, 2 refused"; "-" where every scene has an answer.
+std::string statuses_text(const Statuses& statuses) {
+  const std::string out = text::joined(statuses, [](const auto& one) {
+    return fmt::format("{} {}", one.second, name_of(one.first));
+  });
+  return out.empty() ? "-" : out;
+}
 
 /// One detector at one level: counts of different levels do not add up.
 struct Accuracy {
@@ -72,7 +89,7 @@ std::vector<std::string> accuracy_cells(const std::string& detector, const Accur
 void add_accuracy(const Index& index, const Scenes& scenes, const std::string& detector,
                   TitledTable& table) {
   std::vector<Accuracy> all;
-  std::map<results::Status, std::size_t> statuses;
+  Statuses statuses;
   for (const Scene* scene : scenes) {
     const Run* run = index.run(scene->id, detector);
     if (run == nullptr || !scene->unjudged.empty()) continue;
@@ -89,10 +106,7 @@ void add_accuracy(const Index& index, const Scenes& scenes, const std::string& d
     found->wrong += own.missed > 0 || own.spurious > 0;
     found->counts.add(*run, level);
   }
-  std::string no_answer = text::joined(statuses, [](const auto& one) {  // "1 error, 2 refused"
-    return fmt::format("{} {}", one.second, name_of(one.first));
-  });
-  if (no_answer.empty()) no_answer = "-";
+  std::string no_answer = statuses_text(statuses);
   if (all.empty() && !statuses.empty()) all.emplace_back();
   for (const Accuracy& own : all) {
     table.rows.push_back(accuracy_cells(detector, own, no_answer));
@@ -118,11 +132,123 @@ TitledTable accuracy_table(const Index& index, const Scenes& scenes, const std::
   return out;
 }
 
+// Between frames.
+
+/// Levels of steps, with the titles of their columns.
+constexpr std::pair<Level, const char*> kStepLevels[] = {
+    {Level::kImpact, "bodies"},        {Level::kImpactTriangle, "triangles"},
+    {Level::kImpactVf, "vertex-face"}, {Level::kImpactEe, "edge-edge"},
+    {Level::kImpactSelfVf, "self vf"}, {Level::kImpactSelfEe, "self ee"}};
+
+std::uint64_t true_impacts(const Scene& scene, Level level) {
+  const auto found = scene.truth.find(level);
+  const auto* count =
+      found == scene.truth.end() ? nullptr : std::get_if<std::uint64_t>(&found->second);
+  return count == nullptr ? 0 : *count;
+}
+
+bool has_impacts(const Scene& scene) {
+  return std::ranges::any_of(kStepLevels,
+                             [&](const auto& one) { return true_impacts(scene, one.first) > 0; });
+}
+
+std::uint64_t tunnelled_in(const Run& run) {
+  if (!run.impacts) return 0;
+  const std::vector<std::uint64_t>& steps = run.impacts->tunnelled;
+  return std::accumulate(steps.begin(), steps.end(), std::uint64_t{0});
+}
+
+// Over all levels of steps.
+ErrorCounts step_errors(const Run& run) {
+  ErrorCounts out;
+  for (const auto& [level, title] : kStepLevels) out.add(run, level);
+  return out;
+}
+
+// The larger of two of which either may be none.
+void take_larger(std::optional<double>& most, const std::optional<double>& value) {
+  if (value) most = std::max(most.value_or(*value), *value);
+}
+
+std::vector<std::string> step_accuracy_row(const Index& index, const Scenes& scenes,
+                                           const std::string& detector) {
+  std::map<Level, ErrorCounts> levels;
+  Statuses statuses;
+  std::size_t answered = 0, wrong = 0;
+  std::uint64_t tunnelled = 0;
+  std::optional<double> early, late;
+  for (const Scene* scene : scenes) {
+    const Run* run = index.run(scene->id, detector);
+    if (run == nullptr) continue;
+    if (!run->ok() || !run->impacts) {
+      ++statuses[run->status];
+      continue;
+    }
+    ++answered;
+    const ErrorCounts all = step_errors(*run);
+    wrong += all.missed > 0 || all.spurious > 0;
+    for (const auto& [level, title] : kStepLevels)
+      if (ErrorCounts own; own.add(*run, level)) levels[level].add(*run, level);
+    tunnelled += tunnelled_in(*run);
+    take_larger(early, run->impacts->early_max);
+    take_larger(late, run->impacts->late_max);
+  }
+  std::vector<std::string> row = {detector, fmt::format("{}", answered)};
+  for (const auto& [level, title] : kStepLevels) {
+    const auto found = levels.find(level);
+    row.push_back(found == levels.end()
+                      ? "-"
+                      : fmt::format("{} / {}", found->second.missed, found->second.spurious));
+  }
+  row.push_back(fmt::format("{}", tunnelled));
+  row.push_back(format_number(early));
+  row.push_back(format_number(late));
+  row.push_back(fmt::format("{}", wrong));
+  row.push_back(statuses_text(statuses));
+  return row;
+}
+
+TitledTable step_accuracy_table(const Index& index, const Scenes& scenes, const std::string& kind) {
+  TitledTable out{fmt::format("Missed and spurious in {} {}", plural(scenes.size(), "scene"), kind),
+                  "",
+                  {{"detector", true, ""}, {"scenes", false, "that it answered"}},
+                  {}};
+  std::vector<std::string> truth;
+  for (const auto& [level, title] : kStepLevels) {
+    std::uint64_t sum = 0;
+    for (const Scene* scene : scenes) sum += true_impacts(*scene, level);
+    truth.push_back(fmt::format("{} {}", sum, title));
+    out.columns.push_back(
+        {title, false, fmt::format("missed / spurious, level `{}`", name_of(level))});
+  }
+  out.text = "True pairs: " + text::joined(truth) + ". Errors are missed / spurious.";
+  out.columns.push_back(
+      {"tunnelled", false,
+       "pairs of bodies that meet within a step, touch at neither end, and are not "
+       "reported"});
+  out.columns.push_back(
+      {"early", false, "most that a reported time is before the first contact, in steps"});
+  out.columns.push_back(
+      {"late", false, "most that a reported time is after the first contact, in steps"});
+  out.columns.push_back({"scenes wrong", false, "with missed or spurious contacts"});
+  out.columns.push_back({"no answer", true, "scenes by status"});
+  for (const std::string& detector : index.detectors())
+    if (std::ranges::any_of(
+            scenes, [&](const Scene* scene) { return index.run(scene->id, detector) != nullptr; }))
+      out.rows.push_back(step_accuracy_row(index, scenes, detector));
+  return out;
+}
+
 // "2 missed, 1 spurious"; the status of a run that is not `ok`; "" where all is right.
-std::string wrong_text(const Run& run) {
+std::string wrong_text(const Scene& scene, const Run& run) {
   if (run.status == results::Status::kError) return name_of(run.status);
+  if (!run.ok()) return "";
   ErrorCounts counts;
-  if (!run.ok() || !counts.add(run, run.per_frame.level)) return "";
+  if (drawn_as_steps(scene)) {
+    counts = step_errors(run);
+  } else if (!counts.add(run, run.per_frame.level)) {
+    return "";
+  }
   std::string out;
   if (counts.missed > 0) out = fmt::format("{} missed", counts.missed);
   if (counts.spurious > 0)
@@ -147,7 +273,8 @@ TitledTable wrong_table(const Index& index, const Scenes& scenes) {
     std::string first_case;
     for (const Scene* scene : scenes) {
       const Run* run = index.run(scene->id, detector);
-      const std::string wrong = run == nullptr || !scene->unjudged.empty() ? "" : wrong_text(*run);
+      const std::string wrong =
+          run == nullptr || !scene->unjudged.empty() ? "" : wrong_text(*scene, *run);
       if (wrong.empty()) continue;
       all.push_back(fmt::format("{} ({})", scene->id, wrong));
       const auto own = cases.find({scene->id, detector});
@@ -188,22 +315,25 @@ std::optional<double> playback_ratio(const Run& run, Question question,
   return speedup->playback.value;
 }
 
-// Over each reference, and where there are several over the fastest one of each scene.
-std::vector<Compared> compared(const Index& index, const Scenes& scenes) {
+// Over each reference, and where there are several over the fastest one of each scene. `asked`: of
+// all detectors; none: each one's own.
+std::vector<Compared> compared(const Index& index, const Scenes& scenes,
+                               std::span<const char* const> references,
+                               std::optional<Question> asked) {
   std::vector<Compared> out;
   for (const std::string& detector : index.detectors()) {
     std::vector<Compared> own;
-    for (const char* reference : results::kReferences)
+    for (const char* reference : references)
       own.push_back({detector, reference, Question::kTriangles, {}});
     own.push_back({detector, kFastest, Question::kTriangles, {}});
-    std::optional<Question> question;
+    std::optional<Question> question = asked;
     for (const Scene* scene : scenes) {
       const Run* run = index.ok_run(scene->id, detector);
       if (run == nullptr || run->times.empty()) continue;
       if (!question) question = compared_question(*run);
       std::optional<double> least;
-      for (std::size_t i = 0; i < results::kReferences.size(); ++i) {
-        const auto ratio = playback_ratio(*run, *question, results::kReferences[i]);
+      for (std::size_t i = 0; i < references.size(); ++i) {
+        const auto ratio = playback_ratio(*run, *question, references[i]);
         if (!ratio) continue;
         own[i].ratios.push_back({scene, *ratio});
         least = std::min(least.value_or(*ratio), *ratio);
@@ -384,7 +514,7 @@ TitledTable correlations_table(const std::vector<Compared>& all) {
   return out;
 }
 
-std::string count_text(const Scenes& scenes, std::size_t touching) {
+std::string count_text(const Scenes& scenes, const std::string& touching) {
   std::set<std::uint64_t> seeds;
   std::size_t redrawn = 0, unjudged = 0;
   for (const Scene* scene : scenes) {
@@ -394,9 +524,9 @@ std::string count_text(const Scenes& scenes, std::size_t touching) {
   }
   std::vector<std::string> names;
   for (const std::uint64_t seed : seeds) names.push_back(std::to_string(seed));
-  std::string out = fmt::format(
-      "{} drawn from {} {}, {} with contact.", plural(scenes.size(), "scene"),
-      seeds.size() == 1 ? "seed" : "seeds", short_list(names, kMostWrongScenes), touching);
+  std::string out = fmt::format("{} drawn from {} {}, {}.", plural(scenes.size(), "scene"),
+                                seeds.size() == 1 ? "seed" : "seeds",
+                                short_list(names, kMostWrongScenes), touching);
   if (redrawn > 0)
     out += fmt::format(" {} drawn again because a limit of time or memory ended the judging.",
                        redrawn == 1 ? "1 of them was" : fmt::format("{} of them were", redrawn));
@@ -407,20 +537,24 @@ std::string count_text(const Scenes& scenes, std::size_t touching) {
   return out;
 }
 
-Blocks drawn_blocks(const Index& index) {
+/// Scenes of one kind, frames or steps, and which of them have something to find.
+struct DrawnKind {
   Scenes all, touching, apart;
-  for (const Scene& scene : index.results().scenes) {
-    if (!scene.drawn) continue;
+  void add(const Scene& scene, bool touches) {
     all.push_back(&scene);
-    if (scene.unjudged.empty()) (scene.contact_frames > 0 ? touching : apart).push_back(&scene);
+    if (scene.unjudged.empty()) (touches ? touching : apart).push_back(&scene);
   }
-  if (all.empty()) return {};
-  const std::vector<Compared> ratios = compared(index, all);
-  const std::pair<const Scenes&, const char*> kinds[] = {{touching, "with contact"},
-                                                         {apart, "without contact"}};
-  Blocks out = {Paragraph{count_text(all, touching.size())}};
-  for (const auto& [scenes, kind] : kinds) out.emplace_back(accuracy_table(index, scenes, kind));
-  out.emplace_back(wrong_table(index, all));
+};
+
+using AccuracyTable = TitledTable (*)(const Index&, const Scenes&, const std::string&);
+
+// Sums of errors, wrong scenes, speed-ups and what decides them.
+void add_blocks(const Index& index, const DrawnKind& drawn, const std::vector<Compared>& ratios,
+                AccuracyTable accuracy, const std::string& contact, Blocks& out) {
+  const std::pair<const Scenes&, std::string> kinds[] = {{drawn.touching, "with " + contact},
+                                                         {drawn.apart, "without " + contact}};
+  for (const auto& [scenes, kind] : kinds) out.emplace_back(accuracy(index, scenes, kind));
+  out.emplace_back(wrong_table(index, drawn.all));
   for (const auto& [scenes, kind] : kinds) out.emplace_back(speedups_table(ratios, scenes, kind));
   // The last of a detector is over the fastest reference, or over the only one.
   Items decides;
@@ -432,13 +566,50 @@ Blocks drawn_blocks(const Index& index) {
     out.emplace_back(std::move(decides));
   }
   out.emplace_back(correlations_table(ratios));
+}
+
+std::string step_count_text(const DrawnKind& drawn) {
+  std::size_t steps = 0, passing = 0;
+  for (const Scene* scene : drawn.all) {
+    if (!scene->impacts) continue;
+    steps += scene->impacts->motion.size();
+    for (const std::uint64_t pairs : scene->impacts->passing) passing += pairs;
+  }
+  return fmt::format("{} with impacts; {}, in which {} of bodies meet and touch at neither end",
+                     drawn.touching.size(), plural(steps, "step"), plural(passing, "pair"));
+}
+
+Blocks drawn_blocks(const Index& index) {
+  DrawnKind frames, steps;
+  for (const Scene& scene : index.results().scenes) {
+    if (!scene.drawn) continue;
+    if (drawn_as_steps(scene)) {
+      steps.add(scene, has_impacts(scene));
+    } else {
+      frames.add(scene, scene.contact_frames > 0);
+    }
+  }
+  Blocks out;
+  if (!frames.all.empty()) {
+    out.emplace_back(
+        Paragraph{count_text(frames.all, fmt::format("{} with contact", frames.touching.size()))});
+    add_blocks(index, frames, compared(index, frames.all, results::kReferences, {}), accuracy_table,
+               "contact", out);
+  }
+  if (!steps.all.empty()) {
+    out.emplace_back(Paragraph{count_text(steps.all, step_count_text(steps))});
+    add_blocks(index, steps,
+               compared(index, steps.all, results::kStepReferences, Question::kImpacts),
+               step_accuracy_table, "impacts", out);
+  }
   return out;
 }
 
 }  // namespace
 
 /// What scenes drawn from a seed say about each detector, in scenes with contact and without: how
-/// often it is wrong and where, how fast it is, and which parameter of the scenes decides that.
+/// often it is wrong and where, how fast it is, and which parameter of the scenes decides that. Of
+/// scenes that are judged between frames the same, with impacts and without.
 extern const Section kDrawn = {"drawn", "Drawn scenes", "Drawn scenes", drawn_blocks};
 
 }  // namespace contactcheck::report

@@ -88,6 +88,34 @@ def test_saved_scene_names_its_meshes_from_its_own_folder(tmp_path):
     assert again[0]["truth_hash"] == scenes(tmp_path, "drawn")[0]["truth_hash"]
 
 
+def test_steps_are_judged_between_frames(tmp_path):
+    steps = {**SMALL_RULES, "id": "small-steps", "detectors": ["fcl-ccd", "swept-aabb", "ffd-lazy"],
+             "shares": {**SMALL_RULES["shares"], "pass": 4}, "frames": [2, 4], "speed": [0.001, 1],
+             "steps": {"most_swept": 300, "self_share": 0.5, "self_twist": [10, 270]}}
+    (tmp_path / "rules.json").write_text(json.dumps(steps))
+    successful("run", tmp_path / "rules.json", "--steps", "--seed", "5", "--count", "8", "--no-timing",
+               "--quiet", "--out", tmp_path / "out")
+    drawn = scenes(tmp_path, "out")
+    assert [scene["id"] for scene in drawn] == [f"drawn-steps-5-{i}" for i in range(1, 9)]
+    for scene in drawn:
+        assert len(scene["impacts"]["motion"]) == scene["frames"] - 1
+        assert {"impact-vf", "impact-ee", "impact-triangle", "impact"} <= set(scene["truth"])
+    impacts = [scene for scene in drawn if any(scene["truth"].values())]
+    assert 0 < len(impacts) < len(drawn)
+    assert 0 < sum("impact-self-vf" in scene["truth"] for scene in drawn) < len(drawn)
+    text = reported(tmp_path, "out")
+    assert f"8 scenes drawn from seed 5, {len(impacts)} with impacts; " in text
+    for kind, count in ("with", len(impacts)), ("without", len(drawn) - len(impacts)):
+        title = f"### Missed and spurious in {count} scene{'s' if count > 1 else ''} {kind} impacts"
+        assert title in text
+    for detector in "swept-aabb", "ffd-lazy":
+        assert text.count(f"\n| {detector} | ") == 2
+    # fcl-ccd lacks what the policy demands of exact ones, which are not all here.
+    outcome = contactcheck("gate", tmp_path / "out/results.json", "--policy", "drawn-steps")
+    assert outcome.exit_code == 1
+    assert "embree-swept" in outcome.out and "missed" not in outcome.out
+
+
 # Of this seed the first scene has 135,784 triangles a body, far too many for the limit, and the
 # one drawn in its place 137.
 @needs_memory_limits

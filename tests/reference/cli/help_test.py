@@ -36,7 +36,8 @@ def test_list_names_every_suite_scene_and_detector_with_one_line():
     suites, scenes, detectors, of_queries = text.split("\n\n")
     suite_files, scene_files = ([*(program.FIXTURES / kind).glob("*.json")] for kind in ("suites", "scenes"))
     assert suite_files and scene_files
-    assert entries_of(suites) == fixture_entries(*suite_files, program.FIXTURES / "drawn.json")
+    assert entries_of(suites) == fixture_entries(
+        *suite_files, program.FIXTURES / "drawn.json", program.FIXTURES / "drawn-steps.json")
     assert entries_of(scenes) == fixture_entries(*scene_files)
     assert [entry[0] for entry in entries_of(detectors)] == DETECTORS
     assert [entry[0] for entry in entries_of(of_queries)] == DETECTORS_OF_QUERIES

@@ -180,3 +180,76 @@ def test_other_scenes_are_shown_with_many_drawn_ones(markdown, drawn, run_of):
     del results["scenes"][-1]["drawn"]
     results["runs"].append(run_of("hello", "fast"))
     assert "\n## hello\n" in markdown(results)
+
+
+@pytest.fixture
+def steps(drawn):
+    """A function: as drawn, of scenes of two steps. Bodies meet in every second scene. "fast" is (number)
+    times as fast as fcl-ccd and half that over embree-swept; in the third scene it misses a vertex and a
+    triangle and lets a pair of bodies through; only it answers about bodies themselves."""
+
+    def results_of(count):
+        results = drawn(count)
+        for i, scene in enumerate(results["scenes"], 1):
+            scene["id"] = f"drawn-steps-7-{i}"
+            meets = i % 2
+            scene["truth"] = {"impact": meets, "impact-triangle": 10 * meets, "impact-vf": 4 * meets,
+                              "impact-ee": 6 * meets, "impact-self-vf": 0}
+            scene["impacts"] = {"motion": [0.5, 2.0], "starting": [0, 0], "passing": [meets, 0],
+                                "new_triangles": 10 * meets, "passing_triangles": 0}
+        for place, run in enumerate(results["runs"]):
+            i, fast = place // 2 + 1, place % 2
+            missed = int(fast and i == 3)
+            run.update(scene=f"drawn-steps-7-{i}", detector="fast" if fast else "fcl-ccd",
+                       semantics={"questions": ["impacts"], "levels": ["impact-vf", "impact"]})
+            run["per_frame"]["level"] = "impact-vf"
+            run["levels"] = {"impact": level_counts(1, 1, 1, 0, 0),
+                             "impact-vf": level_counts(4, 4 - missed, 4 - missed, missed, 0)}
+            run["impacts"] = {"tunnelled": [missed, 0], "timed": 1, "early_max": 0.25 * missed,
+                              "late_max": None}
+            run["time_ms"] = {**run["time_ms"], "question": "impacts"}
+            run["speedup"] = {"impacts": {"fcl-ccd": speedup(i), "embree-swept": speedup(0.5 * i)}
+                              if fast else {"fcl-ccd": speedup(1.0)}}
+        return results
+
+    return results_of
+
+
+def test_steps_are_summed_by_level_with_and_without_impacts(section_of, table_below, steps):
+    text = section_of(steps(5))
+    assert text.startswith("5 scenes drawn from seed 7, 3 with impacts; 10 steps, in which 3 pairs of bodies "
+                           "meet and touch at neither end.\n")
+    assert ("True pairs: 3 bodies, 30 triangles, 12 vertex-face, 18 edge-edge, 0 self vf, 0 self ee. Errors "
+            "are missed / spurious.") in text
+    assert table_below(text, "### Missed and spurious in 3 scenes with impacts") == [
+        ["fcl-ccd", "3", "0 / 0", "-", "0 / 0", "-", "-", "-", "0", "0", "-", "0", "-"],
+        ["fast", "3", "0 / 0", "-", "1 / 0", "-", "-", "-", "1", "0.250", "-", "1", "-"]]
+    without = table_below(text, "### Missed and spurious in 2 scenes without impacts")
+    assert without[1][:3] == ["fast", "2", "0 / 0"]
+    assert table_below(text, "### Scenes with wrong answers") == [
+        ["fast", "1", "drawn-steps-7-3 (1 missed)", "-"]]
+
+
+def test_steps_have_speedups_over_references_of_steps(section_of, table_below, steps):
+    text = section_of(steps(40))
+    # Ratios 1, 3, ..., 39, and half of that.
+    assert table_below(text, "### Speed-ups in 20 scenes with impacts") == [
+        ["fast", "impacts", "fcl-ccd", "20", "20.0x", "3.00x", "1.00x", "drawn-steps-7-1", "19"],
+        ["fast", "impacts", "embree-swept", "20", "10.0x", "1.50x", "0.500x", "drawn-steps-7-1", "19"],
+        ["fast", "impacts", "the fastest", "20", "10.0x", "1.50x", "0.500x", "drawn-steps-7-1", "19"]]
+    assert table_below(text, "### Speed-ups in 20 scenes without impacts")[0][4] == "21.0x"
+    assert sentences(text)[0].startswith("`fast` is faster than every reference in 38 of 40 scenes")
+
+
+def test_steps_and_frames_are_summed_apart(section_of, steps, drawn):
+    results, frames = steps(4), drawn(3)
+    results["scenes"] += frames["scenes"]
+    results["runs"] += frames["runs"]
+    text = section_of(results)
+    assert "3 scenes drawn from seed 7, 2 with contact." in text
+    assert "4 scenes drawn from seed 7, 2 with impacts; 8 steps" in text
+
+
+def test_many_steps_are_sums_alone(markdown, steps):
+    assert "| drawn-steps-7-2 |" in markdown(steps(FEWEST_SUMMED_SCENES - 1)).split("## Between frames")[1]
+    assert "drawn-steps-7-2 |" not in markdown(steps(FEWEST_SUMMED_SCENES)).split("## Drawn scenes")[0]

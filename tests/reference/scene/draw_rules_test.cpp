@@ -38,6 +38,27 @@ TEST(DrawRules, ThoseThatComeAlongDrawContactInHalfOfTheScenes) {
   EXPECT_EQ(rules.triangles.high, 200000.0);
 }
 
+TEST(DrawRules, RefusesStepsThatCannotBeDrawn) {
+  const auto refused = [](const std::string& what, const std::string& instead) {
+    std::string text = test::small_step_rules("\"pass\": 1");
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), instead);
+    return sentence_of([&] { parse_draw_rules(text, "rules"); });
+  };
+  EXPECT_EQ(
+      refused("[0.001, 1]", "[0, 1]"),
+      "rules: speed[0] is 0; it must be above 0, since speeds of steps are drawn log-uniform.");
+  EXPECT_EQ(refused("[2, 4]", "[1, 4]").substr(0, 26), "rules: bodies[0] is 1; it ");
+  EXPECT_EQ(refused("\"frames\": [2, 4]", "\"frames\": [1, 4]"),
+            "rules: frames[0] is 1; it must be at least 2: a step is from a frame to the next.");
+  EXPECT_EQ(refused("[10, 270]", "[0, 270]"),
+            "rules: steps.self_twist[0] is 0; it must be a number above 0 and at most 360.");
+  EXPECT_EQ(refused("\"self_share\": 0.5", "\"self_share\": 2"),
+            "rules: steps.self_share is 2; it must be a number of at least 0 and at most 1.");
+  EXPECT_EQ(refused("\"most_swept\": 300, ", ""), "rules: steps.most_swept is missing.");
+}
+
 TEST(DrawRules, RefusesWhatCannotBeDrawn) {
   EXPECT_EQ(refusal("[2, 4]", "[4, 2]"),
             "rules: bodies is reversed: its lowest value 4 is above its highest, 2.");

@@ -9,6 +9,7 @@
 
 #include "core/types/hash.h"
 #include "reference/oracle/oracle.h"
+#include "reference/oracle/step_truth.h"
 #include "reference/scene/draw_rules.h"
 #include "reference/text/file_text.h"
 #include "tests/reference/scene/scratch.h"
@@ -61,6 +62,89 @@ TEST(DrawnScene, IsTheSameForTheSameSeedOnEveryMachine) {
     }
   }
   EXPECT_EQ(all.digest(), 0x32634cfb55a231a1ull) << std::hex << all.digest();
+}
+
+DrawnSpec step_spec(std::uint64_t number, const std::string& shares,
+                    const std::string& self = "0.5") {
+  DrawnSpec spec = small_spec(number);
+  spec.rules = test::small_step_rules(shares, self);
+  return spec;
+}
+
+// In all steps: pairs of bodies that meet, and of elements of one body.
+std::pair<std::size_t, std::size_t> judged_steps(const Scene& scene) {
+  oracle::StepOracle oracle(scene.bodies);
+  std::pair<std::size_t, std::size_t> out;
+  for (std::size_t f = 0; f + 1 < scene.frames; ++f) {
+    const test::FrameData start = test::make_frame(scene.bodies, scene.nodes_of_frame(f));
+    const test::FrameData end = test::make_frame(scene.bodies, scene.nodes_of_frame(f + 1));
+    const oracle::StepTruth truth =
+        oracle.judge({start.frame(f), end.frame(f + 1)}, {}, {true, true});
+    out.first += truth.first.size();
+    out.second +=
+        truth.contacts.self_impact_vertices.size() + truth.contacts.self_impact_edges.size();
+  }
+  return out;
+}
+
+constexpr const char* kEachShare =
+    R"("apart": 1, "near-miss": 1, "graze": 1, "touch": 1, "deep": 1, "pile": 1, "nested": 1, "pass": 1)";
+
+TEST(DrawnSteps, AreTheSameForTheSameSeedOnEveryMachine) {
+  Fnv1a all;
+  for (std::uint64_t number = 1; number <= 8; ++number) {
+    const DrawnScene drawn = draw_scene(step_spec(number, kEachShare));
+    const Scene kept = load_scene_text(drawn.text);
+    all.value(frames_hash(kept));
+    EXPECT_EQ(frames_hash(kept), frames_hash(drawn.scene));
+    EXPECT_EQ(kept.levels, drawn.scene.levels);
+    EXPECT_EQ(kept.id, "drawn-steps-7-" + std::to_string(number));
+  }
+  EXPECT_EQ(all.digest(), 0x857c1784b7fc4649ull) << std::hex << all.digest();
+}
+
+// Bodies that pass touch in no frame, and meet in every step.
+TEST(DrawnSteps, BodiesThatPassMeetBetweenFramesAlone) {
+  for (std::uint64_t number = 1; number <= 3; ++number) {
+    const Scene scene = draw_scene(step_spec(number, R"("pass": 1)", "0")).scene;
+    EXPECT_EQ(judged(scene).first, 0u) << number;
+    EXPECT_GE(judged_steps(scene).first, scene.frames - 1) << number;
+  }
+}
+
+TEST(DrawnSteps, AreJudgedForContactOfBodiesWithThemselvesInAShareOfTheScenes) {
+  std::size_t own = 0;
+  for (std::uint64_t number = 1; number <= 6; ++number) {
+    const Scene with = draw_scene(step_spec(number, R"("apart": 1)", "1")).scene;
+    EXPECT_TRUE(with.judges(Level::kImpactSelfVf) && with.judges(Level::kImpactSelfEe));
+    EXPECT_TRUE(with.judges(Level::kImpact) && !with.judges(Level::kTriangle));
+    own += judged_steps(with).second;
+    EXPECT_FALSE(
+        draw_scene(step_spec(number, R"("apart": 1)", "0")).scene.judges(Level::kImpactSelfVf));
+  }
+  EXPECT_GT(own, 40u);
+}
+
+TEST(DrawnSteps, HaveFewerTrianglesTheFurtherTheySweep) {
+  DrawnSpec spec;
+  spec.rules = text::read_file_bytes(CONTACTCHECK_FIXTURES "/drawn-steps.json", "rules file");
+  spec.rules_name = "drawn-steps.json";
+  const DrawRules rules = parse_draw_rules(spec.rules, spec.rules_name);
+  ASSERT_TRUE(rules.steps);
+  std::size_t slow = 0, fast = 0;
+  for (int i = 1; i <= 500; ++i) {
+    spec.number = static_cast<std::uint64_t>(i);
+    const Drawn drawn = draw_parameters(spec);
+    const double triangles = drawn.parameters.at("triangles");
+    const double speed = drawn.parameters.at("speed");
+    ASSERT_TRUE(speed >= rules.speed.low && speed <= rules.speed.high);
+    ASSERT_LE(triangles * drawn.parameters.at("bodies") * speed, rules.steps->most_swept);
+    slow += speed < 0.01;
+    fast += speed > 0.1;
+  }
+  // A third of them each.
+  EXPECT_NEAR(static_cast<double>(slow), 500.0 / 3.0, 50.0);
+  EXPECT_NEAR(static_cast<double>(fast), 500.0 / 3.0, 50.0);
 }
 
 TEST(DrawnScene, IsAnotherOneForEveryKey) {

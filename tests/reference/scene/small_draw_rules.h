@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace contactcheck::test {
 
@@ -33,6 +34,18 @@ inline std::string small_draw_rules(
   "touch_depth": [0.001, 0.02],
   "deep_depth": [0.03, 0.2]
 })";
+}
+
+/// Of scenes that are judged between frames.
+inline std::string small_step_rules(const std::string& shares, const std::string& self = "0.5") {
+  std::string text = small_draw_rules(shares);
+  for (const auto& [from, to] :
+       {std::pair("[6, 10]", "[2, 4]"), std::pair("[0, 0.05]", "[0.001, 1]")})
+    text.replace(text.find(from), std::string(from).size(), to);
+  text.replace(text.rfind('}'), 1,
+               ", \"steps\": {\"most_swept\": 300, \"self_share\": " + self +
+                   ", \"self_twist\": [10, 270]}}");
+  return text;
 }
 
 }  // namespace contactcheck::test

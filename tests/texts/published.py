@@ -234,18 +234,36 @@ def paper_sums(reproduction, _):
              "test": means["test_ratio"]["ours"], "steps": means["frame_rate_ratio"]["ours"]}]
 
 
-def drawn_sums(results, _):
-    """Of scenes drawn from one seed."""
+def drawn_scenes(results):
+    """What was drawn from one seed: those of its scenes that were judged, and the sums of all."""
     scenes = [scene for scene in results["scenes"] if "drawn" in scene]
     seeds = {scene["drawn"]["seed"] for scene in scenes}
     if len(seeds) != 1:
         raise TextError(f"the scenes are drawn from {len(seeds)} seeds and not from one")
     judged = [scene for scene in scenes if "unjudged" not in scene]
-    return [{"seed": seeds.pop(), "scenes": len(scenes), "judged": len(judged),
-             "redrawn": sum(scene["drawn"]["redrawn"] > 0 for scene in scenes),
+    return judged, {"seed": seeds.pop(), "scenes": len(scenes), "judged": len(judged),
+                    "redrawn": sum(scene["drawn"]["redrawn"] > 0 for scene in scenes)}
+
+
+def drawn_sums(results, _):
+    judged, sums = drawn_scenes(results)
+    return [{**sums,
              "with_contact": sum(scene["contact_frames"] > 0 for scene in judged),
              "frames": sum(scene["frames"] for scene in judged),
              "true_pairs": sum(scene["truth"]["triangle"] for scene in judged)}]
+
+
+def step_sums(results, _):
+    """Of scenes that are judged between frames: true pairs by level."""
+    judged, sums = drawn_scenes(results)
+    levels = sorted({level for scene in judged for level in scene["truth"]})
+    true = {level: sum(scene["truth"].get(level, 0) for scene in judged) for level in levels}
+    return [{**sums,
+             "with_impacts": sum(any(scene["truth"].values()) for scene in judged),
+             "with_self": sum("impact-self-vf" in scene["truth"] for scene in judged),
+             "steps": sum(len(scene["impacts"]["motion"]) for scene in judged),
+             "passing": sum(sum(scene["impacts"]["passing"]) for scene in judged),
+             "true": true}]
 
 
 def drawn_rows(results, titles):
@@ -267,7 +285,7 @@ def drawn_rows(results, titles):
 
 MAKERS = {"scenes": scene_rows, "runs": run_rows, "goals": goal_rows, "sums": family_sums,
           "detectors": family_rows, "paper_sums": paper_sums, "paper": paper_rows,
-          "drawn_sums": drawn_sums, "drawn": drawn_rows}
+          "drawn_sums": drawn_sums, "step_sums": step_sums, "drawn": drawn_rows}
 
 GOAL = ("goal", "detector", "part", "at_least", "at_most", "measured", "low", "high", "unit", "why",
         "met")
@@ -295,6 +313,7 @@ FILES = {
     "reproduce": {"paper_sums": (), "paper": ()},
     "drawn": {"drawn_sums": (), "drawn": ("Missed and spurious",)},
     "drawn-times": {"drawn_sums": (), "drawn": ("Missed and spurious", "Speed-ups")},
+    "drawn-steps": {"step_sums": (), "drawn": ("Missed and spurious",)},
 }
 
 

@@ -382,6 +382,7 @@ def paper_overview(files):
 
 # With contact first: where a detector has to do something.
 DRAWN_KINDS = ("with contact", "without contact")
+STEP_KINDS = ("with impacts", "without impacts")
 DRAWN_SPEED = ("ffd-lazy", "full-refit", "ffd-aabb-sphere2+tri")
 DRAWN_PEERS = {"fcl-aabb": "FCL", "embree": "Embree"}
 
@@ -445,10 +446,29 @@ def drawn_accuracy(files):
                   "scenes wrong:", "without contact:", "spurious:", "scenes wrong:"], rows)
 
 
+def drawn_steps(files):
+    """Errors at each level over all drawn steps, as missed / spurious."""
+    file, rows = files["drawn-steps"], []
+    levels = ("bodies", "triangles", "vertex-face", "edge-edge", "self vf", "self ee")
+
+    def summed_errors(cells):
+        pairs = [[int(n) for n in cell.split(" / ")] for cell in cells if cell != "-"]
+        return f"{sum(p[0] for p in pairs)} / {sum(p[1] for p in pairs)}" if pairs else "-"
+    for detector in dict.fromkeys(row["detector"] for row in file.rows("drawn")):
+        kinds = [drawn_row(file, "Missed and spurious", kind, detector=detector)
+                 for kind in STEP_KINDS]
+        rows.append([f"`{detector}`", *(str(sum(int(kind[column]) for kind in kinds))
+                                        for column in ("scenes", "scenes wrong")),
+                     *(summed_errors([kind[level] for kind in kinds]) for level in levels),
+                     str(sum(int(kind["tunnelled"]) for kind in kinds))])
+    return table(["detector", "scenes:", "wrong:", *(f"{level}:" for level in levels),
+                  "tunnelled:"], rows)
+
+
 TABLES = {"headline": headline, "default": default_summary, "performance": performance_peers,
           "goals": performance_goals, "drawn": drawn_headline, "drawn-times": drawn_speed,
           "drawn-decides": drawn_decides, "self": self_scenes, "self-goals": self_goals,
-          "drawn-accuracy": drawn_accuracy, "single-lazy": single_lazy,
+          "drawn-accuracy": drawn_accuracy, "drawn-steps": drawn_steps, "single-lazy": single_lazy,
           "single-lazy-times": single_lazy_times, "single-historic": single_historic,
           "single-historic-times": single_historic_times, "hard": hard_wrong, "settings": settings,
           "ranges": scale_ranges,
@@ -476,6 +496,7 @@ def figures(files):
     default, performance, hard = files["default"], files["performance"], files["hard"]
     lazy, hard_single, paper = files["single-lazy"], files["single-hard"], files["reproduce"]
     drawn, drawn_times = files["drawn"].row("drawn_sums"), files["drawn-times"].row("drawn_sums")
+    steps = files["drawn-steps"].row("step_sums")
     historic_times, lazy_times, small = (files["single-historic-times"], files["single-lazy-times"],
                                          files["paper-64"])
 
@@ -562,6 +583,13 @@ def figures(files):
         "drawn.seed": lambda: str(drawn["seed"]),
         "drawn.machine": lambda: machine(files["drawn"]),
         "drawn.minutes": lambda: minutes_of(files["drawn"]),
+        **{f"drawn-steps.{name}": lambda name=name: count(steps[name])
+           for name in ("scenes", "steps", "with_impacts", "with_self", "passing")},
+        **{f"drawn-steps.true.{level}": lambda level=level: count(steps["true"][level])
+           for level in steps["true"]},
+        "drawn-steps.seed": lambda: str(steps["seed"]),
+        "drawn-steps.machine": lambda: machine(files["drawn-steps"]),
+        "drawn-steps.minutes": lambda: minutes_of(files["drawn-steps"]),
         "settings-drawn.scenes": lambda: count(files["settings-drawn"].row("drawn_sums")["scenes"]),
         "drawn-times.scenes": lambda: count(drawn_times["scenes"]),
         "drawn-times.with_contact": lambda: count(drawn_times["with_contact"]),

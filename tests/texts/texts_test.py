@@ -280,6 +280,27 @@ class Publish(OfACopy):
         with self.assertRaisesRegex(TextError, "drawn from 2 seeds"):
             published("drawn", path, 1)
 
+    def test_drawn_steps_are_summed_by_level(self):
+        scene = {"drawn": {"seed": 7, "redrawn": 0}, "truth": {"impact": 2, "impact-vf": 9},
+                 "impacts": {"motion": [0.5, 2.0], "passing": [1, 0]}}
+        own = {**scene, "truth": {"impact": 0, "impact-vf": 0, "impact-self-vf": 3},
+               "impacts": {"motion": [0.5], "passing": [0]}}
+        still = {**own, "truth": {"impact": 0, "impact-vf": 0}}
+        results = {"command": "contactcheck run drawn --steps", "version": "0.1.0", "machine": {},
+                   "scenes": [scene, own, still,
+                              {"drawn": {"seed": 7, "redrawn": 5}, "unjudged": "no progress"}]}
+        path = self.root / "results.json"
+        path.write_text(json.dumps(results), "utf-8")
+        (self.root / "report.md").write_text(
+            "\n## Drawn scenes\n\n### Missed and spurious in 2 scenes with impacts\n\n"
+            "| detector | bodies |\n|---|--:|\n| x | 1 / 2 |\n", "utf-8")
+        made = json.loads(published("drawn-steps", path, 1, "abc"))
+        self.assertEqual(made["step_sums"], [{
+            "seed": 7, "scenes": 4, "judged": 3, "redrawn": 1, "with_impacts": 2, "with_self": 1,
+            "steps": 4, "passing": 1, "true": {"impact": 2, "impact-self-vf": 3, "impact-vf": 9}}])
+        self.assertEqual(made["drawn"], [{"table": "Missed and spurious in 2 scenes with impacts",
+                                          "detector": "x", "bodies": "1 / 2"}])
+
     def test_refuses_a_command_with_an_absolute_path(self):
         results = json.loads(EXAMPLE.read_text("utf-8"))
         path = self.root / "results.json"

@@ -74,9 +74,7 @@ void LazySteps::update(const Step& step) {
     boxes.back().extend(ends_[b].box);
   }
   place_step(starts_, ends_);
-  std::vector<Vec3> velocities;
-  for (const LazyState& state : starts_) velocities.push_back(state.velocity);
-  contacts_.begin(std::move(start), std::move(end), std::move(velocities));
+  contacts_.begin(std::move(start), std::move(end));
   pairs_.clear();
   find_candidate_bodies(boxes, pairs_);
   std::erase_if(pairs_,

@@ -44,14 +44,11 @@ void own(const std::vector<std::array<std::uint32_t, 3>>& items,
   }
 }
 
-Aabb bounding_box(std::span<const Vec3> points) {
-  Aabb box;
-  for (const Vec3& point : points) box.extend(point);
-  return box;
-}
-
-Aabb joined(Aabb box, const Aabb& other) {
-  box.extend(other);
+/// The box of a side, or of a corner named twice.
+MovingBox path_of(const MovingTriangle& of, std::size_t i, std::size_t j) {
+  MovingBox box;
+  box.extend(*of.start[i], *of.end[i]);
+  box.extend(*of.start[j], *of.end[j]);
   return box;
 }
 
@@ -89,20 +86,14 @@ void StepContacts::begin(const Step& step) {
     for (const BodyState& body : frame.bodies) out.push_back(body.vertices);
     return out;
   };
-  std::vector<std::span<const Vec3>> start = vertices_of(step.start), end = vertices_of(step.end);
-  std::vector<Vec3> velocities;
-  for (std::size_t b = 0; b < start.size() && b < end.size(); ++b)
-    velocities.push_back(bounding_box(end[b]).center() - bounding_box(start[b]).center());
-  begin(std::move(start), std::move(end), std::move(velocities));
+  begin(vertices_of(step.start), vertices_of(step.end));
 }
 
 void StepContacts::begin(std::vector<std::span<const Vec3>> start,
-                         std::vector<std::span<const Vec3>> end, std::vector<Vec3> velocities) {
+                         std::vector<std::span<const Vec3>> end) {
   start_ = std::move(start);
   end_ = std::move(end);
-  velocities_ = std::move(velocities);
-  CONTACTCHECK_INVARIANT(start_.size() == bodies_.size() && end_.size() == bodies_.size() &&
-                             velocities_.size() == bodies_.size(),
+  CONTACTCHECK_INVARIANT(start_.size() == bodies_.size() && end_.size() == bodies_.size(),
                          "one state per prepared body at both ends");
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const std::size_t count = bodies_[b]->shape->mesh.vertices.size();
@@ -123,10 +114,6 @@ void StepContacts::enter(std::uint32_t body_a, std::uint32_t body_b, ContactSet&
   // Of contact of a body with itself nobody asks the time.
   const auto before = first_.find({body_a, body_b});
   until_ = body_a == body_b ? -1.0 : before == first_.end() ? kNever : before->second;
-  frame_ = 0.5 * velocities_[body_a] + 0.5 * velocities_[body_b];
-  // A difference from a coordinate then never overflows.
-  constexpr double kFastest = 1e150;
-  if (!frame_.allFinite() || frame_.cwiseAbs().maxCoeff() > kFastest) frame_ = Vec3::Zero();
   at_start_.begin(*bodies_[body_a]->shape, start_[body_a], *bodies_[body_b]->shape, start_[body_b]);
 }
 
@@ -140,76 +127,21 @@ void StepContacts::flush(ContactSet& out) {
   if (a != b && until_ < kNever) first_[{a, b}] = until_;
 }
 
-// Where two points meet at t they do so in the frame that moves by t w, for any w. There a corner's
-// path lies in the box of its start and its end - w. The difference rounds by at most 2^-53 of
-// itself and is moved outward by twice that, also where it is subnormal.
-StepContacts::Moving StepContacts::moving(std::uint32_t body, std::uint32_t triangle) const {
-  constexpr double kTwoUnits = 0x1p-52, kSmallest = std::numeric_limits<double>::denorm_min();
+MovingTriangle StepContacts::moving(std::uint32_t body, std::uint32_t triangle) const {
   const Triangle& t = bodies_[body]->shape->mesh.triangles[triangle];
-  Moving out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.start[i] = &start_[body][t[i]];
-    out.end[i] = &end_[body][t[i]];
-    const Vec3 end = out.end_in_frame[i] = *out.end[i] - frame_;
-    const Vec3 outward = (kTwoUnits * end.cwiseAbs()).array() + kSmallest;
-    out.corner_boxes[i] = {out.start[i]->cwiseMin(end - outward),
-                           out.start[i]->cwiseMax(end + outward)};
-    out.box.extend(out.corner_boxes[i]);
-  }
-  return out;
-}
-
-// True if a plane across the normal of one of the triangles at the start is seen to separate all
-// that they take up over the step, in the moving frame. Along any n, exact or not, the twelve
-// places are compared as n.d with d = x - o, o a corner. u = 2^-53; D is the largest |d| along an
-// axis, E the largest |coordinate| of an end in the frame, N the sum of |n|. d rounds by u D, and
-// x, at an end, by u E; the products and sums of n.d by 3 u N D; the comparison by 2 u N D. In all
-// less than 6 u N D + u N E on either side; 16 u N (D + E) is taken for both, and 2^-1000 for
-// underflow.
-bool StepContacts::separated(const Moving& p, const Moving& q) const {
-  const Vec3& origin = *q.start[0];
-  std::array<Vec3, 6> of_p, of_q;
-  double farthest = 0.0, largest = 0.0;
-  const auto relative = [&](const Moving& of, std::array<Vec3, 6>& out) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      out[i] = *of.start[i] - origin;
-      out[3 + i] = of.end_in_frame[i] - origin;
-      farthest =
-          std::max({farthest, out[i].cwiseAbs().maxCoeff(), out[3 + i].cwiseAbs().maxCoeff()});
-      largest = std::max(largest, of.end_in_frame[i].cwiseAbs().maxCoeff());
-    }
-  };
-  relative(p, of_p);
-  relative(q, of_q);
-  // Products of three lengths must not overflow: a corner at NaN would be passed over. Below this
-  // nothing does. False for NaN and infinity, too.
-  constexpr double kLargest = 0x1p300;
-  if (!(farthest <= kLargest) || !(largest <= kLargest)) return false;
-  for (const auto* corners : {&of_q, &of_p}) {
-    const Vec3 normal = ((*corners)[1] - (*corners)[0]).cross((*corners)[2] - (*corners)[0]);
-    const double slack = 16 * 0x1p-53 * normal.cwiseAbs().sum() * (farthest + largest) + 0x1p-1000;
-    double low_p = normal.dot(of_p[0]), high_p = low_p, low_q = normal.dot(of_q[0]), high_q = low_q;
-    for (std::size_t i = 1; i < 6; ++i) {
-      const double at_p = normal.dot(of_p[i]), at_q = normal.dot(of_q[i]);
-      low_p = std::min(low_p, at_p);
-      high_p = std::max(high_p, at_p);
-      low_q = std::min(low_q, at_q);
-      high_q = std::max(high_q, at_q);
-    }
-    if (low_p - high_q > slack || low_q - high_p > slack) return true;
-  }
-  return false;
+  const std::span<const Vec3> start = start_[body], end = end_[body];
+  return {{&start[t[0]], &start[t[1]], &start[t[2]]}, {&end[t[0]], &end[t[1]], &end[t[2]]}};
 }
 
 // Calls `meet(vertex, time)` for the corners that a triangle owns and a face of `other` meets.
 template <typename Meet>
-void StepContacts::test_vertices(std::uint32_t body, std::uint32_t triangle, const Moving& of,
-                                 std::uint32_t other, std::uint32_t face, const Moving& with,
-                                 Meet&& meet) {
+void StepContacts::test_vertices(std::uint32_t body, std::uint32_t triangle,
+                                 const MovingTriangle& of, std::uint32_t other, std::uint32_t face,
+                                 const MovingTriangle& with, Meet&& meet) {
   const Elements& elements = *bodies_[body];
   const Triangle& corners = elements.shape->mesh.triangles[triangle];
   for (std::size_t i = 0; i < 3; ++i) {
-    if ((elements.owned[triangle] >> i & 1u) == 0 || !of.corner_boxes[i].overlaps(with.box))
+    if ((elements.owned[triangle] >> i & 1u) == 0 || separated(path_of(of, i, i), with.box))
       continue;
     if (body == other && elements.shape->uses(face, corners[i])) continue;
     ++tested_;
@@ -224,21 +156,22 @@ void StepContacts::test_vertices(std::uint32_t body, std::uint32_t triangle, con
 
 // Calls `meet(edge, edge, time)` for the sides that both triangles own and that meet.
 template <typename Meet>
-void StepContacts::test_edges(std::uint32_t body_a, std::uint32_t a, const Moving& p,
-                              std::uint32_t body_b, std::uint32_t b, const Moving& q, Meet&& meet) {
+void StepContacts::test_edges(std::uint32_t body_a, std::uint32_t a, const MovingTriangle& p,
+                              std::uint32_t body_b, std::uint32_t b, const MovingTriangle& q,
+                              Meet&& meet) {
   const Elements &of_a = *bodies_[body_a], &of_b = *bodies_[body_b];
   const unsigned owned_a = of_a.owned[a] >> 3, owned_b = of_b.owned[b] >> 3;
   if (owned_a == 0 || owned_b == 0) return;
   for (std::size_t i = 0; i < 3; ++i) {
     if ((owned_a >> i & 1u) == 0) continue;
     const std::size_t to = (i + 1) % 3;
-    const Aabb box = joined(p.corner_boxes[i], p.corner_boxes[to]);
-    if (!box.overlaps(q.box)) continue;
+    const MovingBox path = path_of(p, i, to);
+    if (separated(path, q.box)) continue;
     const std::uint32_t edge_a = of_a.edges.of_triangle[a][i];
     for (std::size_t j = 0; j < 3; ++j) {
       if ((owned_b >> j & 1u) == 0) continue;
       const std::size_t end = (j + 1) % 3;
-      if (!box.overlaps(joined(q.corner_boxes[j], q.corner_boxes[end]))) continue;
+      if (separated(path, path_of(q, j, end))) continue;
       const std::uint32_t edge_b = of_b.edges.of_triangle[b][j];
       if (body_a == body_b) {
         const auto same = [&](std::uint32_t v, std::uint32_t w) {
@@ -260,8 +193,8 @@ void StepContacts::test_edges(std::uint32_t body_a, std::uint32_t a, const Movin
 void StepContacts::add(const ElementPair& candidate, ContactSet& out) {
   const auto [body_a, body_b, a, b] = candidate;
   enter(body_a, body_b, out);
-  const Moving p = moving(body_a, a), q = moving(body_b, b);
-  if (!p.box.overlaps(q.box) || separated(p, q)) return;
+  const MovingTriangle p = moving(body_a, a), q = moving(body_b, b);
+  if (separated(p, q)) return;
   at_start_.add({a, b, {}}, [&](std::uint32_t i, std::uint32_t j) {
     out.impact_triangles.push_back({pair_[0], pair_[1], i, j});
     until_ = 0.0;
@@ -295,8 +228,8 @@ void StepContacts::add(const ElementPair& candidate, ContactSet& out) {
 void StepContacts::add_own(const SelfPair& candidate, ContactSet& out) {
   const auto [body, a, b] = candidate;
   enter(body, body, out);
-  const Moving p = moving(body, a), q = moving(body, b);
-  if (!p.box.overlaps(q.box) || separated(p, q)) return;
+  const MovingTriangle p = moving(body, a), q = moving(body, b);
+  if (separated(p, q)) return;
   test_vertices(body, a, p, body, b, q, [&](std::uint32_t vertex, double) {
     out.self_impact_vertices.push_back({body, body, vertex, b});
   });

@@ -22,6 +22,7 @@
 
 #include "core/deform/body.h"
 #include "core/detect/exact_pairs.h"
+#include "core/narrow/moving_triangles.h"
 #include "core/types/contact_set.h"
 #include "core/types/frame.h"
 #include "core/types/impact.h"
@@ -35,12 +36,8 @@ class StepContacts {
   void prepare(const std::vector<Body>& bodies);
   /// Starts a step. @pre its vertices are finite, and outlive the calls that follow
   void begin(const Step& step);
-  /// The same with the vertices at both ends, per body, of which only those of candidates are read,
-  /// and a velocity of each body, metres a step. Which one does not change the contacts: elements
-  /// are compared in a frame that moves with the two bodies, where their boxes over the step are
-  /// smaller.
-  void begin(std::vector<std::span<const Vec3>> start, std::vector<std::span<const Vec3>> end,
-             std::vector<Vec3> velocities);
+  /// The same with the vertices at both ends, per body, of which only those of candidates are read.
+  void begin(std::vector<std::span<const Vec3>> start, std::vector<std::span<const Vec3>> end);
 
   /// A pair of triangles of two bodies. Candidates are a superset of the pairs whose closed boxes
   /// over the step meet, each exactly once (repeats cost time and change nothing).
@@ -51,7 +48,7 @@ class StepContacts {
   /// them.
   void finish(ContactSet& out);
 
-  /// Pairs of elements whose boxes meet, since begin().
+  /// Pairs of elements that were tested exactly, since begin().
   std::uint64_t tested() const { return tested_; }
 
  private:
@@ -68,31 +65,22 @@ class StepContacts {
   };
   static Elements elements_of(const std::shared_ptr<const BodyShape>& shape);
 
-  /// One triangle over the step. Boxes are in the moving frame, and rounded outward.
-  struct Moving {
-    std::array<const Vec3*, 3> start, end;
-    std::array<Vec3, 3> end_in_frame;
-    std::array<Aabb, 3> corner_boxes;
-    Aabb box;
-  };
-  bool separated(const Moving& p, const Moving& q) const;
-  Moving moving(std::uint32_t body, std::uint32_t triangle) const;
+  MovingTriangle moving(std::uint32_t body, std::uint32_t triangle) const;
   void enter(std::uint32_t body_a, std::uint32_t body_b, ContactSet& out);
   void flush(ContactSet& out);
 
   template <typename Meet>
-  void test_vertices(std::uint32_t body, std::uint32_t triangle, const Moving& of,
-                     std::uint32_t other, std::uint32_t face, const Moving& with, Meet&& meet);
+  void test_vertices(std::uint32_t body, std::uint32_t triangle, const MovingTriangle& of,
+                     std::uint32_t other, std::uint32_t face, const MovingTriangle& with,
+                     Meet&& meet);
   template <typename Meet>
-  void test_edges(std::uint32_t body_a, std::uint32_t a, const Moving& p, std::uint32_t body_b,
-                  std::uint32_t b, const Moving& q, Meet&& meet);
+  void test_edges(std::uint32_t body_a, std::uint32_t a, const MovingTriangle& p,
+                  std::uint32_t body_b, std::uint32_t b, const MovingTriangle& q, Meet&& meet);
 
   std::vector<std::shared_ptr<const Elements>> bodies_;
   std::vector<std::span<const Vec3>> start_, end_;  // per body
-  std::vector<Vec3> velocities_;                    // per body
   std::array<std::uint32_t, 2> pair_ = {};          // bodies of the candidates that come
   bool entered_ = false;
-  Vec3 frame_ = Vec3::Zero();         // the velocity of the frame of their boxes
   ExactPairs at_start_;               // tests them at t = 0
   std::map<BodyPair, double> first_;  // times of the pairs that were entered before
   double until_ = 0.0;  // of this pair the first time so far: later ones need not be certified

@@ -32,8 +32,8 @@
 //
 // Box. Its ends are f(c) -+ the sum of |g_k| e_k, of |f_st| es et (as su, tu) and |f_stu| es et eu:
 //   * A node as a float is wrong by u M. The float nodes are taken as the nodes, so their bounds
-//     are exact for images that are u M off: u M. (The rounding of x - origin in double comes
-//     last, below.)
+//     are exact for images that are u M off: u M. (x - origin in double rounds by 2^-53 of itself,
+//     so by no more than 2^-53 M: nothing beside u M.)
 //   * A term is the result of three levels of sums and differences. Each takes pairs (x, y) to
 //     (x + y, x - y). That doubles a sum of squares, the errors' as the values'. So the errors of
 //     each level, at most u of its values, are in the end at most u M as a root of the sum of
@@ -87,7 +87,10 @@
 //
 // Over a step (lazy_state.h): the box and slab of both ends are joined.
 //   * Both ends are in frames of one reach, with one slack, so each end's box and slab hold by the
-//     above. A box is a least and a largest of floats, and rounds nothing more.
+//     above. A box is a least and a largest of floats, and rounds nothing more. (The reach comes of
+//     the end's box less the motion and the end's origin of the start's plus the motion: two
+//     roundings of the world, by which the reach may be short, that is less than the error of the
+//     mapping. It is then far out.)
 //   * Along one n the ranges of both ends are joined. That of the start is middle -+ half: their
 //     difference and sum, and the middle and half-width of the joined range, round by at most
 //     3 * 15.3 u M = 46 u M. With 174.5 and 100.5 u M that makes 321 u M, below 384 u M.
@@ -96,8 +99,7 @@
 //     the straight line between its rounded ends, which convex bounds of both ends hold.
 //
 // Added to both slacks, in units of the world times the scale (place_one() in lazy_state.cpp):
-//   * the error of the canonical mapping (mapping.h);
-//   * the rounding of x - origin, 2^-53 of |x| and of |origin|, four times;
+//   * the error of the canonical mapping (mapping.h), over a step that of the larger end;
 //   * 1e-37 for float underflow.
 // They are errors per coordinate. Along n, of length 1, they come at most sqrt(3) times: slabs get
 // them twice. (Far out they are no longer small against M, and are rounded with the rest, by some u

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/deform/mapping.h"
+#include "core/narrow/moving_triangles.h"
 #include "core/types/check.h"
 #include "core/types/local_origin.h"
 
@@ -50,18 +51,30 @@ bool slab_holds(const LaneSlabs& slab, std::uint32_t lane, const Vec3& p) {
 }
 
 void place_one(const Aabb& frame, double scale, LazyState& state) {
-  constexpr double kFloatUnit = 0x1p-24, kDoubleUnit = 0x1p-53;
+  constexpr double kFloatUnit = 0x1p-24;
   state.scale = scale;
   state.origin = frame.center();
   state.reach = half_width(frame) * scale;
-  // Products first: the sum of two coordinates may overflow, and nothing would be excluded.
-  const double farthest = std::max(state.origin.cwiseAbs().maxCoeff(),
-                                   (state.origin + state.velocity).cwiseAbs().maxCoeff());
-  const double world = mapping_error_bound(state.largest) + 4.0 * kDoubleUnit * state.largest +
-                       4.0 * kDoubleUnit * farthest;
-  const double common = world * scale * 1.01 + 1e-37;
+  const double common = mapping_error_bound(state.largest) * scale * 1.01 + 1e-37;
   state.slack = round_up(64.0 * kFloatUnit * state.reach + common);
   state.slab_slack = round_up(384.0 * kFloatUnit * state.reach + 2.0 * common);
+}
+
+// `boxes`: per body, what its frame is to hold.
+void place_by(const std::vector<Aabb>& boxes, std::span<LazyState> states) {
+  Aabb scene;
+  double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
+  for (const Aabb& box : boxes) {
+    scene.extend(box);
+    largest = std::max(largest, half_width(box));
+    smallest = std::min(smallest, half_width(box));
+  }
+  // Slack grows with the frame: at 64 body widths it is still a ten-thousandth of a body.
+  constexpr double kLargestShare = 64.0;
+  const bool common = half_width(scene) <= kLargestShare * smallest;
+  const double scale = scale_to_one(common ? half_width(scene) : largest);
+  for (std::size_t b = 0; b < states.size(); ++b)
+    place_one(common ? scene : boxes[b], scale, states[b]);
 }
 
 void add_and_subtract(Float4& low, Float4& high) {
@@ -188,35 +201,28 @@ void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices) {
 }
 
 void place(std::span<LazyState> states) {
-  Aabb scene;
-  double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
-  for (const LazyState& state : states) {
-    scene.extend(state.box);
-    largest = std::max(largest, half_width(state.box));
-    smallest = std::min(smallest, half_width(state.box));
-  }
-  // Slack grows with the frame: at 64 body widths it is still a ten-thousandth of a body.
-  constexpr double kLargestShare = 64.0;
-  const bool common = half_width(scene) <= kLargestShare * smallest;
-  const double scale = scale_to_one(common ? half_width(scene) : largest);
-  for (LazyState& state : states) place_one(common ? scene : state.box, scale, state);
+  std::vector<Aabb> boxes;
+  for (const LazyState& state : states) boxes.push_back(state.box);
+  place_by(boxes, states);
 }
 
 void place_step(std::span<LazyState> states, std::span<LazyState> ends) {
+  constexpr double kLargest = 0x1p1020;  // sums of four coordinates do not overflow
+  std::vector<Aabb> boxes;
+  std::vector<Vec3> velocities;
   for (std::size_t b = 0; b < states.size(); ++b) {
     LazyState &start = states[b], &end = ends[b];
-    const Vec3 velocity = end.box.center() - start.box.center();
-    const Aabb moved = {end.box.lo - velocity, end.box.hi - velocity};
-    const bool sound = moved.lo.allFinite() && moved.hi.allFinite();
-    start.velocity = sound ? velocity : Vec3(Vec3::Zero());
-    start.box.extend(sound ? moved : end.box);
     start.largest = std::max(start.largest, end.largest);
+    Vec3& velocity = velocities.emplace_back(Vec3::Zero());
+    if (start.largest <= kLargest) velocity = end.box.center() - start.box.center();
+    boxes.push_back(start.box);
+    boxes.back().extend(Aabb{end.box.lo - velocity, end.box.hi - velocity});
   }
-  place(states);
+  place_by(boxes, states);
   for (std::size_t b = 0; b < states.size(); ++b) {
     const LazyState& start = states[b];
     LazyState& end = ends[b];
-    end.origin = start.origin + start.velocity;
+    end.origin = start.origin + velocities[b];
     end.scale = start.scale;
     end.reach = start.reach;
     end.slack = start.slack;
@@ -225,17 +231,7 @@ void place_step(std::span<LazyState> states, std::span<LazyState> ends) {
 }
 
 bool may_meet(const LazyState& a, const LazyState& b) {
-  // Each sum below rounds by at most 2^-53 of the sum of its parts; eight times that is allowed.
-  constexpr double kUnit = 8.0 * 0x1p-53;
-  for (int k = 0; k < 3; ++k) {
-    const double v = b.velocity[k] - a.velocity[k];
-    const double size = std::abs(a.velocity[k]) + std::abs(b.velocity[k]) + a.largest + b.largest;
-    const double rounding = kUnit * size;
-    const double low = b.box.lo[k] + std::min(v, 0.0) - rounding;
-    const double high = b.box.hi[k] + std::max(v, 0.0) + rounding;
-    if (low > a.box.hi[k] || high < a.box.lo[k]) return false;
-  }
-  return true;
+  return !separated(MovingBox{a.box, a.end->box}, MovingBox{b.box, b.end->box});
 }
 
 void begin_frame_in_single(LazyState& state, std::span<const Vec3> nodes, const Vec3& origin) {

@@ -14,10 +14,10 @@
 //
 // Over a step (core/types/frame.h) bounds and boxes of leaves hold the vertices at both ends, and
 // so, since they are convex, all that moves straight between. Each body has a frame of its own that
-// moves with it: the state at the end has another origin, by `velocity`, and a body that moves
-// without turning is at rest there. Two bodies that meet at some t are compared in one of the two
-// frames, in which the other one's bounds are drawn out along the difference of the velocities
-// (meeting-inl.h). What is tested in the end are the doubles at both ends.
+// moves with it: the state at the end has another origin, and a body that moves without turning is
+// at rest there. Two bodies that meet at some t are compared in one of the two frames, in which the
+// other one's bounds are drawn out from the difference of the origins at the start to that at the
+// end (meeting-inl.h). What is tested in the end are the doubles at both ends.
 //
 // What is found in single precision: exactly the pairs of triangles of these floats that intersect.
 // The same on every instruction set and number of threads, and whether bounds come from nodes or
@@ -196,7 +196,6 @@ struct LazyState {
   /// The state at the end of a step, of which this is the start: bounds and boxes are then of both.
   /// Null in a frame. Not in single precision.
   const LazyState* end = nullptr;
-  Vec3 velocity = Vec3::Zero();  ///< of the body's frame over the step, metres; 0 in a frame
 
   FrameTable<BlockBounds> blocks;
   FrameTable<LeafCache> leaves;
@@ -247,13 +246,13 @@ void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices);
 /// Chooses origins, scale and slacks of all bodies. @pre begin_frame_by_... was called for each
 void place(std::span<LazyState> states);
 
-/// The same of a step, with the velocities: the states at both ends have begun their frames. A
-/// state's `box` becomes that of both ends in its moving frame; `end` is placed by its start.
+/// The same of a step: the states at both ends have begun their frames. The frame of a body moves
+/// with the middle of its box (not near the largest double), and `end` is placed by its start.
 /// @pre each state has an `end`
 void place_step(std::span<LazyState> states, std::span<LazyState> ends);
 
-/// True if the boxes of two bodies, in one of their moving frames, may meet within the step. Where
-/// it is false they do not. @pre place_step() was called
+/// False if the boxes of two bodies, which move straight, are on the same two sides along an axis
+/// at both ends of a step: the bodies do not meet. Exact. @pre each state has an `end`
 bool may_meet(const LazyState& a, const LazyState& b);
 
 /// Starts a frame in single precision: rounds `nodes` (without a lattice: vertices) about `origin`.

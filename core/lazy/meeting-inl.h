@@ -39,12 +39,12 @@ class Bits {
   std::uint32_t word_;
 };
 
-// Translation from one body's frame to another's, with the slacks that cover its rounding. Over a
-// step it grows from `offset` by the difference of the velocities.
+// Translation from one body's frame to another's, with the slack that covers its rounding. Over a
+// step it grows evenly from the offset at the start to that at the end.
 struct Translation {
-  float low[3], high[3];         // of boxes, with the slack
+  float low[3], high[3];         // of boxes: below and above all of it
   float middle[3], half_way[3];  // of slabs: at t = 1/2, and its half growth
-  float slack, slab_slack;       // of boxes, which have it already, and of slabs
+  float slab_slack;              // of slabs
   bool moves;                    // it grows
   bool none;                     // both have one frame and one reach: either's slack covers a test
 };
@@ -86,68 +86,76 @@ struct MovedBounds {
   float slab_slack() const { return translation.slab_slack; }
 };
 
+// The largest float that is no larger, and the smallest that is no smaller.
+HWY_INLINE float float_below(double x) {
+  const auto near = static_cast<float>(x);
+  return static_cast<double>(near) <= x ? near : std::nextafter(near, -kInfinity);
+}
+HWY_INLINE float float_above(double x) { return -float_below(-x); }
+
 // The translation from the frame of `from` to that of `to`.
 //
-// Claim: the slacks cover all rounding of MovedBounds and of a test with them. Over a step, a point
-// of `from` at time t lies, in the frame of `to` at t, within its bounds moved by offset + t v.
-// Those moves are a segment; MovedBounds hold the bounds moved by all of it.
+// Claim: MovedBounds hold the bounds, moved by all of the translation, and the slack covers all
+// rounding of a test of slabs with them. Over a step, a point of `from` at time t lies, in the
+// frame of `to` at t, within its bounds moved by the offset at t. Offsets are those at both ends,
+// weighted by 1 - t and t: a segment.
 //
-// Notation, as in bounds-inl.h: u = 2^-24; v is the difference of the velocities, 0 in a frame. r
-// is the sum of both reaches and the largest |v| along an axis. Bounds of a child have
-// |coordinates| of at most 2.9 r, its slab |middle| + half of at most 15.3 r.
+// Notation, as in bounds-inl.h: u = 2^-24; r is the sum of both reaches and the largest growth of
+// the offset along an axis, 0 in a frame. Bounds of a child have |coordinates| of at most 2.9 r,
+// its slab |middle| + half of at most 15.3 r.
 //
-// Assumption: the bodies' boxes overlap, over a step that of `from` moved by all of v (may_meet),
-// so the offset is at most r per axis. Where it is larger than 2 r (beyond the doubles) nothing is
-// excluded, by a finite slack: empty lanes stay empty.
+// Assumption: the bodies' boxes meet, over a step at some t (may_meet), so both offsets are at most
+// r per axis. Where one is larger than 2 r (beyond the doubles) nothing is excluded, by a finite
+// slack: empty lanes stay empty.
 //
 // Boxes:
-//   * The differences of the origins at both ends round once each, in double: by 2^-53 of their
-//     |coordinates|. 8 times that is taken, and 1e-36 for float underflow (`rounding`).
-//   * As a float an end of the offset is wrong by u r, with the slack subtracted or added by u r
-//     more. In all 2 u r; 4 u r is taken.
+//   * The difference of two origins rounds by at most 2^-53 of itself, in double. 2^-52 of the
+//     longest offset is taken (`rounding`).
+//   * It is then rounded to a float outward.
 //   * Its sum with a bound is compared with a float. Rounding is monotone and leaves a float as it
 //     is, so the exact sum compares as the rounded one, or as equal.
 //
 // Slabs, along a normal of length 1. The slack is in both comparisons of not_separated():
-//   * `rounding` comes at most sqrt(3) times; 4 times is taken.
 //   * The float offset is wrong by sqrt(3) u r and its products with the normal by as much. Three
 //     sums for the middle, and one for half, are at most 15.3 r + sqrt(3) r = 17.1 r: 3 * 17.1 u r,
 //     with the products 55 u r.
-//   * Half of the way along v, at most sqrt(3) r / 2, is wrong by as much u as a float, in three
-//     products and two sums, and is added to half: 6 * 0.87 u r, and 17.1 u r for the sum. In all
-//     below 23 u r.
+//   * Half of the growth along the normal, at most sqrt(3) r / 2, is wrong by as much u as a float,
+//     in three products and two sums, and is added to half: 6 * 0.87 u r, and 17.1 u r for the sum.
+//     In all below 23 u r.
 //   * A moved box has |coordinates| of at most 3.9 r, rounded once: sqrt(3) * 3.9 u r, below 7 u r.
 //   * A test (bounds-inl.h) of slabs with W = 17.1 r and boxes with B = 3.9 r, sqrt(3) B below
 //     6.8 r: 2.5 for n - a m; 5 * 17.1 cos + 5 * 6.8 sin, below 93, for the sums (the slack is one
 //     more); for the comparison 17.1 and 17.1 cos + 6.8 sin, below 36. In all 131.5 u r.
 //   * In all 55 + 23 + 7 + 131.5 = 216.5 u r; 256 u r is taken.
+//
+// What underflows, of doubles or of floats, is below 1e-37 in all, which the slacks of the child's
+// own bounds have for it.
 HWY_INLINE Translation translation_between(const LazyState& from, const LazyState& to) {
   constexpr double kUnit = 0x1p-24, kEverything = 1e29;
-  double offset[3], way[3], origins = 0.0, longest = 0.0, widest = 0.0;
+  const Vec3 &from_end = from.end != nullptr ? from.end->origin : from.origin,
+             &to_end = to.end != nullptr ? to.end->origin : to.origin;
+  double start[3], end[3], longest = 0.0, widest = 0.0;
   for (int k = 0; k < 3; ++k) {
-    offset[k] = (from.origin[k] - to.origin[k]) * to.scale;
-    way[k] = (from.velocity[k] - to.velocity[k]) * to.scale;
-    longest = std::max(longest, std::abs(offset[k]));
-    widest = std::max(widest, std::abs(way[k]));
-    origins += (std::abs(from.origin[k]) + std::abs(to.origin[k]) + std::abs(from.velocity[k]) +
-                std::abs(to.velocity[k])) *
-               to.scale;
+    start[k] = (from.origin[k] - to.origin[k]) * to.scale;
+    end[k] = (from_end[k] - to_end[k]) * to.scale;
+    longest = std::max({longest, std::abs(start[k]), std::abs(end[k])});
+    widest = std::max(widest, std::abs(end[k] - start[k]));
   }
   const double r = from.reach + to.reach + widest;
-  const double rounding = 8 * 0x1p-53 * origins + 1e-36;
   // False for NaN and infinity, too.
-  const bool sound = longest <= 2.0 * r + 1e-30 && rounding < kEverything && r < kEverything;
+  const bool sound = longest <= 2.0 * r + 1e-30 && r < kEverything;
+  const double rounding = sound ? 0x1p-52 * longest : kEverything;
   Translation out;
-  out.slack = static_cast<float>(sound ? rounding + 4 * kUnit * r : kEverything);
+  out.moves = false;
   for (int k = 0; k < 3; ++k) {
-    if (!sound) offset[k] = way[k] = 0.0;
-    out.low[k] = static_cast<float>(offset[k] + std::min(way[k], 0.0)) - out.slack;
-    out.high[k] = static_cast<float>(offset[k] + std::max(way[k], 0.0)) + out.slack;
-    out.middle[k] = static_cast<float>(offset[k] + 0.5 * way[k]);
-    out.half_way[k] = static_cast<float>(0.5 * way[k]);
+    if (!sound) start[k] = end[k] = 0.0;
+    out.low[k] = float_below(std::min(start[k], end[k]) - rounding);
+    out.high[k] = float_above(std::max(start[k], end[k]) + rounding);
+    out.middle[k] = static_cast<float>(0.5 * start[k] + 0.5 * end[k]);
+    out.half_way[k] = static_cast<float>(0.5 * (end[k] - start[k]));
+    out.moves |= end[k] != start[k];
   }
-  out.slab_slack = static_cast<float>(sound ? 4 * rounding + 256 * kUnit * r : kEverything);
-  out.moves = from.velocity != to.velocity;
+  out.slab_slack = static_cast<float>(sound ? 256 * kUnit * r : kEverything);
   out.none = !out.moves && from.origin == to.origin && from.reach == to.reach;
   return out;
 }

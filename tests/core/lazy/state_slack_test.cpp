@@ -2,12 +2,12 @@
 // for large errors by exact arithmetic. A sixteenth of the slack of boxes does not hold.
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "tests/core/lazy/exact_cells.h"
 #include "tests/core/lazy/one_body.h"
 #include "tests/support/observed_error.h"
 #include "tests/support/wide.h"
@@ -15,72 +15,15 @@
 namespace contactcheck {
 namespace {
 
+using test::exact_range;
+using test::ExactCell;
 using test::kSixteenth;
 using test::magnitude;
 using test::OneBody;
 using test::ShapePtr;
 using test::TriangleSource;
 using test::Wide;
-
-struct WideRange {
-  Wide lo, hi;
-  void join(const WideRange& other) { lo = std::min(lo, other.lo), hi = std::max(hi, other.hi); }
-};
-
-// A coordinate, in the body's frame, as a function of y = 2 x - 1: the sum of term[i] times the
-// product of y_k over the bits k of i.
-class ExactCell {
- public:
-  ExactCell(const LazyState& state, std::uint32_t cell, int axis) {
-    const CornerIds& ids = state.shape->lattice->cell_nodes[cell];
-    for (unsigned i = 0; i < 8; ++i)
-      for (unsigned c = 0; c < 8; ++c) {
-        const Wide node = in_frame(state, ids[c], axis) / 8;
-        term_[i] += std::popcount(i & ~c) % 2 == 0 ? node : -node;
-      }
-  }
-  Wide at(const Vec3& local) const {
-    Wide sum = 0;
-    for (unsigned i = 0; i < 8; ++i) {
-      Wide part = term_[i];
-      for (int k = 0; k < 3; ++k)
-        if (i >> k & 1) part *= 2 * Wide(local[k]) - 1;
-      sum += part;
-    }
-    return sum;
-  }
-  // What lattice_tree.h says of a box, over one piece.
-  WideRange over(const PieceLanes& pieces, std::size_t lane) const {
-    Wide middle[3], half[3];
-    for (int k = 0; k < 3; ++k) {
-      const Wide lo = pieces.lo[k][lane], hi = pieces.hi[k][lane];
-      middle[k] = (lo + hi) / (2 * PieceLanes::kSteps);
-      half[k] = (hi - lo) / (2 * PieceLanes::kSteps);
-    }
-    Wide value = 0, wide = 0;
-    for (unsigned of = 0; of < 8; ++of) {  // the derivative along the bits of `of`
-      Wide derivative = 0, steps = 1;
-      for (unsigned i = 0; i < 8; ++i) {
-        if ((i & of) != of) continue;
-        Wide part = term_[i];
-        for (int k = 0; k < 3; ++k)
-          if ((i & ~of) >> k & 1) part *= middle[k];
-        derivative += part;
-      }
-      for (int k = 0; k < 3; ++k)
-        if (of >> k & 1) steps *= half[k];
-      (of == 0 ? value : wide) += of == 0 ? derivative : magnitude(derivative) * steps;
-    }
-    return {value - wide, value + wide};
-  }
-
- private:
-  static Wide in_frame(const LazyState& state, std::uint32_t node, int axis) {
-    if (state.precision == Precision::kSingle) return state.single.nodes[node][axis];
-    return (Wide(state.nodes[node][axis]) - state.origin[axis]) * state.scale;
-  }
-  Wide term_[8] = {};
-};
+using test::WideRange;
 
 // A mapped vertex in the body's frame.
 Wide mapped(const OneBody& body, const LazyState& state, std::uint32_t v, int axis) {
@@ -108,11 +51,7 @@ Ratios errors_over_slacks(OneBody& body, const LazyKernels& kernels) {
       for (std::uint32_t t : test::triangles_under(tree, tree.blocks[b].child[child]))
         for (std::uint32_t v : body.shape().mesh.triangles[t]) vertices.insert(v);
       for (int k = 0; k < 3; ++k) {
-        WideRange exact = {1e300, -1e300};
-        for (std::uint32_t p = tree.blocks[b].begin; p < tree.blocks[b].end; ++p)
-          for (std::size_t lane = 0; lane < kBlockWidth; ++lane)
-            if (tree.pieces[p].child[lane] == child)
-              exact.join(ExactCell(state, tree.pieces[p].cell[lane], k).over(tree.pieces[p], lane));
+        const WideRange exact = exact_range(state, b, child, k);
         Wide below = 0, above = 0;  // by which mapped vertices are off
         for (std::uint32_t v : vertices) {
           const Wide off = mapped(body, state, v, k) -

@@ -32,6 +32,8 @@ void check_triangle_pairs(MutantFindings& out);
 void check_labels(MutantFindings& out);
 /// Moving elements against the oracle.
 void check_impacts(MutantFindings& out);
+/// Contact within steps: detectors against the oracle, and what their bounds promise.
+void check_steps(MutantFindings& out);
 /// Sets of contacts, the hash grid and what a mesh is.
 void check_small_parts(MutantFindings& out);
 

@@ -22,7 +22,7 @@ struct MutantCase {
 class MutantFindings {
  public:
   /// Installs handlers that name the current case when a signal ends the program, or when it has
-  /// run for longer than `seconds`; they exit as if a fault had been found.
+  /// taken more than `seconds` of processor time; they exit as if a fault had been found.
   static void name_crashes(unsigned seconds);
 
   /// The case that is looked at from now on.

@@ -5,6 +5,7 @@
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
+#include "reference/judge/export_folder.h"
 #include "reference/judge/scene_export.h"
 #include "reference/process/interrupts.h"
 #include "reference/queries/scene_queries.h"

@@ -35,11 +35,4 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every,
                            const std::filesystem::path& folder,
                            const std::function<void()>& before_frame);
 
-/// Writes check.py, which checks exports of scenes and of queries.
-/// @throws InputError if it cannot be written
-void write_check_script(const std::filesystem::path& folder);
-
-/// True if `folder` is a complete export of some scene.
-bool is_export(const std::filesystem::path& folder);
-
 }  // namespace contactcheck::judge

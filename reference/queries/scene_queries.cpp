@@ -17,6 +17,7 @@
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "core/types/impact.h"
+#include "reference/oracle/certificate_text.h"
 #include "reference/oracle/elementary_impact.h"
 #include "reference/oracle/impact_certificate.h"
 #include "reference/scene/frame_positions.h"
@@ -147,54 +148,6 @@ class Reservoir {
   std::vector<std::pair<std::size_t, ImpactQuery>> chosen_;
 };
 
-// A certificate as a line of JSON. A number is that double; a text is a rational, hexadecimal.
-
-std::string number_text(const mpq_class& value) {
-  const double rounded = value.get_d();
-  if (std::isfinite(rounded) && mpq_class(rounded) == value) return fmt::format("{}", rounded);
-  return '"' + value.get_str(16) + '"';
-}
-
-/// A number, or [x, y] for x + y times the square root that the line names.
-std::string surd_text(const oracle::certify::Surd& surd, bool rational) {
-  return rational ? number_text(surd.x)
-                  : fmt::format("[{},{}]", number_text(surd.x), number_text(surd.y));
-}
-
-std::string piece_text(const oracle::certify::ApartPiece& piece) {
-  const std::string end = number_text(piece.end);
-  if (const auto* side = std::get_if<oracle::certify::Side>(&piece.reason))
-    return fmt::format(R"([{},"side",{},{},{}])", end, side->axis, side->from, side->to);
-  if (const auto* direction = std::get_if<oracle::certify::Direction>(&piece.reason)) {
-    const auto& [x, y, z] = direction->along;
-    return fmt::format(R"([{},"direction",{},{},{}])", end, number_text(mpq_class(x)),
-                       number_text(mpq_class(y)), number_text(mpq_class(z)));
-  }
-  return fmt::format(R"([{},"volume"])", end);
-}
-
-std::string meeting_text(const oracle::certify::Meeting& meeting) {
-  const bool rational = meeting.time.root == 0;
-  std::string weights;
-  for (const oracle::certify::Surd& weight : meeting.weights)
-    weights += (weights.empty() ? "" : ",") + surd_text(weight, rational);
-  const std::string root = rational ? "" : ',' + number_text(mpq_class(meeting.time.root));
-  return fmt::format("[{},[{}]{}]", surd_text(meeting.time, rational), weights, root);
-}
-
-std::string certificate_text(const std::optional<oracle::certify::ImpactCertificate>& proof) {
-  if (!proof) return "null\n";
-  std::string text;
-  for (const auto& piece : proof->apart) text += (text.empty() ? "" : ",") + piece_text(piece);
-  text = R"({"apart":[)" + text + ']';
-  if (const auto* crossing = std::get_if<oracle::certify::Crossing>(&proof->contact))
-    text += fmt::format(R"(,"crosses":[{},{},{}])", number_text(crossing->start),
-                        number_text(crossing->end), crossing->axis);
-  if (const auto* meeting = std::get_if<oracle::certify::Meeting>(&proof->contact))
-    text += R"(,"meets":)" + meeting_text(*meeting);
-  return text + "}\n";
-}
-
 /// A text file, written as it grows.
 class GrowingFile {
  public:
@@ -246,7 +199,7 @@ class QueryWriter {
     if (!certificates_) return;
     const auto proof = oracle::certify::certify_impact(query, truth);
     counts.proved += proof ? 1 : 0;
-    certificates_->add(certificate_text(proof));
+    certificates_->add(proof ? oracle::certify::impact_text(*proof) + "\n" : "null\n");
   }
 
   /// @throws InputError if a file could not be written
@@ -259,16 +212,6 @@ class QueryWriter {
   GrowingFile queries_;
   std::optional<GrowingFile> certificates_;
 };
-
-void require_finite(const scene::Scene& scene, std::size_t frame,
-                    const std::vector<Places>& vertices) {
-  for (std::size_t body = 0; body < vertices.size(); ++body)
-    for (std::size_t v = 0; v < vertices[body].size(); ++v)
-      if (!vertices[body][v].allFinite())
-        throw InputError("scene " + text::in_quotes(scene.id) + ", frame " + std::to_string(frame) +
-                         ", body " + text::in_quotes(scene.bodies[body].name) + ": vertex " +
-                         std::to_string(v) + " is not finite");
-}
 
 /// The queries of one step, in a fixed order: by pair of bodies, then by element.
 class StepQueries {
@@ -372,12 +315,15 @@ QueryExport export_queries(const scene::Scene& scene, const QuerySample& sample,
       edge_edge_file.add(query, result.edge_edge);
   };
 
-  std::vector<Places> start = positions[0].vertices;
-  require_finite(scene, 0, start);
+  const auto places = [&](std::size_t frame) {
+    scene::require_judgeable(scene, frame, positions[frame]);
+    return positions[frame].vertices;
+  };
+
+  std::vector<Places> start = places(0);
   for (std::size_t step = 0; step + 1 < scene.frames; ++step) {
     before_step();
-    std::vector<Places> end = positions[step + 1].vertices;
-    require_finite(scene, step + 1, end);
+    std::vector<Places> end = places(step + 1);
     const std::size_t vertices_before = vertex_face.seen(), edges_before = edge_edge.seen();
     StepQueries queries(elements, start, end, vertex_face, edge_edge);
     for (std::size_t a = 0; a < elements.size(); ++a)

@@ -19,6 +19,10 @@ struct FramePosition {
 std::vector<std::vector<Vec3>> map_bodies(const Scene& scene,
                                           const std::vector<std::vector<Vec3>>& nodes);
 
+/// @throws InputError naming the scene, the frame, the body and the first node, or else vertex,
+/// that is not finite, or two welded vertices that come apart
+void require_judgeable(const Scene& scene, std::size_t frame, const FramePosition& position);
+
 /// Evaluates a frame on demand and caches only the last two, both ends of a step: all frames need
 /// more memory than all detectors together, and mapping one again takes less time than any
 /// detector.

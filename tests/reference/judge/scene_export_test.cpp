@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "reference/judge/export_folder.h"
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
 #include "tests/support/shapes.h"

@@ -52,15 +52,22 @@ void add_export(CommandLine& line) {
   CLI::App* exported = line.app.add_subcommand(
       "export", "Writes frames and ground truth with certificates and their checker");
   exported
-      ->add_option("targets", arguments->targets, "suites, scenes, families, .json or .ccr files")
+      ->add_option("targets", arguments->targets,
+                   "suites, scenes, families, .json or .ccr files; frames of bodies")
       ->required();
   exported->add_option("--frames", arguments->frames, "frames per scene, same duration")
       ->check(whole_in(1, scene::kMostFrames));
   exported->add_option("--every", arguments->every, "write every Nth frame (default 1)")
       ->check(whole_in(1, scene::kMostFrames));
+  CLI::Option* between =
+      exported->add_flag("--between", arguments->between,
+                         "prove what meets between frames instead: vertices move straight");
+  between->excludes("--every");
+  exported->add_flag("--weld", arguments->weld, "vertices at one place in the first frame are one")
+      ->needs(between);
   CLI::Option* queries = exported->add_flag(
       "--queries", arguments->queries, "instead of frames: queries between them, with their truth");
-  queries->excludes("--every");
+  queries->excludes("--every")->excludes(between);
   exported
       ->add_option("--sample", arguments->sample.most, "at most N queries of a kind, drawn by seed")
       ->check(whole_in(1, std::uint64_t{1} << 32))
@@ -77,9 +84,14 @@ void add_export(CommandLine& line) {
                    "folder for surfaces, certificates, check.py (default out/export)")
       ->type_name("DIR");
   exported->footer(
+      "With --between every pair of bodies has a proof in every step, on straight paths between\n"
+      "these frames: that nothing meets, or one contact. A scene with levels of self-contact also\n"
+      "has proofs for every body with itself: triangles, and vertices or edges, that share no "
+      "vertex.\n"
       "Examples:\n"
       "  contactcheck export bunny-touch && python3 out/export/bunny-touch/check.py\n"
       "  contactcheck export default --every 10 --out /tmp/truth\n"
+      "  contactcheck export cloth_*.obj ball.obj --between && python3 out/export/frames/check.py\n"
       "  contactcheck export bunny-touch --queries --sample 10000 --certificates");
   choose(*exported, line, [arguments, &line] { return export_command(*arguments, line.catalog); });
 }

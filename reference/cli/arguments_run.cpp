@@ -4,6 +4,7 @@
 
 #include "core/types/check.h"
 #include "reference/cli/arguments.h"
+#include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/scene/amount.h"
 #include "reference/scene/drawn_scene.h"
@@ -24,18 +25,6 @@ std::optional<double> size_of(const std::string& text) {
     throw InputError("--size: " + text::in_quotes(text) +
                      " is neither \"file\" nor a number of metres above 0, at most 1000000");
   return size;
-}
-
-// By its ending: ids have none of these.
-bool names_mesh(const std::string& target) {
-  const std::filesystem::path file(target);
-  std::string ending = file.extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  if (ending.empty() || ending == ".json" || ending == ".ccr") return false;
-  std::error_code ignored;
-  return ending == ".obj" || ending == ".ply" || ending == ".off" || ending == ".stl" ||
-         std::filesystem::is_regular_file(file, ignored);
 }
 
 struct RunWords {

@@ -335,19 +335,6 @@ fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
   return fs::exists(page) ? page : arguments.out / "report.md";
 }
 
-// A step goes from a frame to the next one.
-void refuse_left_out(const scene::Scene& scene, const scene::FrameFiles& files) {
-  if (scene.frames < 2)
-    throw InputError("--between looks from frame to frame, and here is one frame");
-  if (!files.unchecked.empty())
-    throw InputError("--between needs every frame of every body, and not every body has that of " +
-                     text::in_quotes(files.unchecked[0]) +
-                     (files.unchecked.size() > 1
-                          ? " and " + counted(files.unchecked.size() - 1, "more file")
-                          : "") +
-                     "; contact between frames that are farther apart is another question");
-}
-
 }  // namespace
 
 int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog) {
@@ -374,7 +361,9 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   if (arguments.weld) scene::weld(scene);
   scene::refuse_crowded_vertices(scene);
 
-  if (arguments.between) refuse_left_out(scene, files);
+  if (arguments.between && scene.frames < 2)
+    throw InputError("--between looks from frame to frame, and here is one frame");
+  if (arguments.between) refuse_left_out(files);
 
   const FrameNames names{files.labels};
   CheckReport report(scene, files, names, arguments.json_lines);

@@ -42,9 +42,11 @@ struct RunArguments : suite::RunTargets {
 };
 
 struct ExportArguments {
-  std::vector<std::string> targets;  ///< suites, scenes, files; at least one
+  std::vector<std::string> targets;  ///< suites, scenes, files, frames; at least one
   std::size_t frames = 0, every = 1;
   bool queries = false;  ///< elementary queries of the steps instead of frames
+  bool between = false;  ///< proofs of the steps instead of frames
+  bool weld = false;     ///< vertices at one place in the first of given frames are one
   queries::QuerySample sample;
   std::filesystem::path out = "out/export";
 };

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <set>
@@ -7,9 +10,11 @@
 #include "reference/cli/commands.h"
 #include "reference/judge/export_folder.h"
 #include "reference/judge/scene_export.h"
+#include "reference/judge/step_export.h"
 #include "reference/process/interrupts.h"
 #include "reference/queries/scene_queries.h"
 #include "reference/scene/catalogue.h"
+#include "reference/scene/frame_files.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/simulate_scene.h"
 #include "reference/scene/suite_file.h"
@@ -23,19 +28,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> files_of(const std::vector<std::string>& targets) {
+// The frames of one simulation, or whatever names scenes.
+std::vector<scene::SceneSource> sources_of(const ExportArguments& arguments) {
+  const auto meshes = std::ranges::count_if(arguments.targets, names_mesh);
+  if (meshes > 0) {
+    if (!arguments.between)
+      throw InputError("mesh files are frames, which export takes with --between");
+    if (static_cast<std::size_t>(meshes) < arguments.targets.size())
+      throw InputError("export takes frames as mesh files, or scenes, and not both at once");
+    const scene::FrameFiles frames =
+        scene::frame_files({arguments.targets.begin(), arguments.targets.end()},
+                           scene::FrameRules(), "frames", {Level::kBody, Level::kSelf});
+    refuse_left_out(frames);
+    return {frames.scene};
+  }
   const fs::path fixtures = scene::fixtures_directory();
-  std::vector<fs::path> files;
-  for (const std::string& name : targets) {
+  std::vector<scene::SceneSource> sources;
+  for (const std::string& name : arguments.targets) {
     const scene::Target target = scene::find_target(name, fixtures);
     if (target.kind != scene::TargetKind::kSuite) {
-      files.push_back(target.file);
+      sources.emplace_back(target.file);
       continue;
     }
     for (const scene::SuiteScene& scene : scene::load_suite(target.file).scenes)
-      files.push_back(scene::file_of(scene, fixtures));
+      sources.emplace_back(scene::file_of(scene, fixtures));
   }
-  return files;
+  return sources;
+}
+
+scene::Scene load(const scene::SceneSource& source, const ExportArguments& arguments) {
+  scene::Scene scene = scene::load_any_scene(source, arguments.frames);
+  if (arguments.weld) scene::weld(scene);
+  return scene;
 }
 
 // An earlier export makes place for this one; anything else stays, and nothing is written.
@@ -48,10 +72,12 @@ void require_free(const fs::path& folder) {
 }
 
 // Every scene is read before anything is written, so that a bad one ends the command at once.
-void check_scenes(const ExportArguments& arguments, const std::vector<fs::path>& files) {
+void check_scenes(const ExportArguments& arguments,
+                  const std::vector<scene::SceneSource>& sources) {
   std::set<std::string> ids;
-  for (const fs::path& file : files) {
-    const scene::Scene scene = scene::load_any_scene(file, arguments.frames);
+  for (const scene::SceneSource& source : sources) {
+    const scene::Scene scene = load(source, arguments);
+    if (arguments.between) judge::require_steps(scene);
     if (!ids.insert(scene.id).second)
       throw InputError("two scenes of this export have the id " + text::in_quotes(scene.id));
     require_free(arguments.out / scene.id);
@@ -81,6 +107,28 @@ void print_summary(const fs::path& folder, const judge::ExportSummary& summary) 
   std::fflush(stdout);
 }
 
+// The same words as check --between has: the frames may be joined by other paths.
+void print_steps(const fs::path& folder, const scene::Scene& scene,
+                 const judge::StepExportSummary& summary) {
+  constexpr const char* kPaths = "on straight paths between these frames";
+  constexpr std::size_t kMostShown = 10;
+  const auto name = [&](std::uint32_t body) { return scene.bodies[body].name; };
+  for (std::size_t i = 0; i < summary.contacts.size() && i < kMostShown; ++i) {
+    const judge::ExportedContact& c = summary.contacts[i];
+    const std::string bodies =
+        name(c.bodies.a) + (c.bodies.a == c.bodies.b ? " with itself" : " and " + name(c.bodies.b));
+    std::printf("frame %zu to %zu, %s: contact at %s of the step, %s\n", c.step, c.step + 1,
+                bodies.c_str(), fmt::format("{:.6g}", c.earliest).c_str(), kPaths);
+  }
+  if (summary.contacts.size() > kMostShown)
+    std::printf("... and %s\n",
+                text::counted(summary.contacts.size() - kMostShown, "more contact").c_str());
+  std::printf("%s: %s, %s: %zu pairs of bodies proven apart, %zu in contact, %zu without proof\n",
+              folder.c_str(), text::counted(summary.steps, "step").c_str(), kPaths, summary.apart,
+              summary.contacts.size(), summary.unproved);
+  std::fflush(stdout);
+}
+
 void print_queries(const fs::path& file, const queries::ExportedQueries& counts,
                    bool certificates) {
   std::printf("%s: %s", file.c_str(), text::counted(counts.written, "query", "queries").c_str());
@@ -95,16 +143,16 @@ void print_queries(const fs::path& file, const queries::ExportedQueries& counts,
 }  // namespace
 
 int export_command(const ExportArguments& arguments, const DetectorCatalog& catalog) {
-  const std::vector<fs::path> files = files_of(arguments.targets);
-  check_scenes(arguments, files);
+  const std::vector<scene::SceneSource> sources = sources_of(arguments);
+  check_scenes(arguments, sources);
   check_out(arguments.out);
   process::InterruptGuard guard;
   const auto look = [&guard] {
     if (guard.interrupted()) guard.pass_on();
   };
   fs::path last;
-  for (const fs::path& file : files) {
-    scene::Scene scene = scene::load_any_scene(file, arguments.frames);
+  for (const scene::SceneSource& source : sources) {
+    scene::Scene scene = load(source, arguments);
     scene::record_simulation(
         catalog, [&](std::size_t) { look(); }, scene);
     scene::place_sweep([&](std::size_t) { look(); }, scene);
@@ -120,6 +168,11 @@ int export_command(const ExportArguments& arguments, const DetectorCatalog& cata
       const bool proofs = arguments.sample.certificates;
       print_queries(folder / "vertex-face.csv", summary.vertex_face, proofs);
       print_queries(folder / "edge-edge.csv", summary.edge_edge, proofs);
+    } else if (arguments.between) {
+      const auto write = [&](const fs::path& made) {
+        return judge::export_steps(scene, made, look);
+      };
+      print_steps(folder, scene, export_whole(scene.id, arguments.out, write));
     } else {
       const auto write = [&](const fs::path& made) {
         return judge::export_scene(scene, arguments.every, made, look);
@@ -128,7 +181,7 @@ int export_command(const ExportArguments& arguments, const DetectorCatalog& cata
     }
   }
   const std::string made =
-      (arguments.out / (files.size() == 1 ? last : fs::path("SCENE"))).string();
+      (arguments.out / (sources.size() == 1 ? last : fs::path("SCENE"))).string();
   if (arguments.queries)
     std::printf("to judge detectors on them: contactcheck queries %s/*.csv\n", made.c_str());
   if (!arguments.queries || arguments.sample.certificates)

@@ -28,6 +28,35 @@ truth/frame_N.json     "contacts": [body, body, triangle, triangle, weights, wei
 Not certified: containment, vertices inside, cells, margins, lengths and depths, which vertices are
 welded, nor that the vertices are what the scene's lattices make of its meshes.
 
+An export with --between is checked likewise: what meets within steps. A step goes from a frame to
+the next one; every vertex moves straight, from its place at t = 0 to that at t = 1.
+steps.json             as scene.json; "steps": how many pairs of bodies are proven apart or in
+    contact, or are unproved: then nothing is said of them
+truth/step_N.json      a pair of bodies each: (0,1), (0,2), ... (1,2), ...; with "self" every body
+    follows with itself. One of these is proven of a pair:
+    "decisions": at no t in [0, 1] do the two have a common point. Of a body with itself: two
+      triangles without a common vertex have none, nor a vertex and a triangle, nor two edges,
+      without a common vertex. Ranges of triangles as above, and a part of the step, at first all:
+        h       split the part in its middle; earlier half first
+        x, y, z at both ends of the part the one box is apart from the other along this axis, on
+                the same side: so it is in between, as what moves straight stays within a box that
+                does. A box at a time t: (1 - t) times that at the start + t times that at the end
+        s       the next of "directions": at both ends of the part it is larger along all corners of
+                the first triangles than along those of the second; and so in between
+        n       one triangle and one triangle, of one body, that share a vertex
+        f       one and one, in the whole step: the next of "triangles", a plane between them at
+                the start, and proofs as below that their elements do not meet: each vertex of the
+                first with the second, each of the second with the first, the edges (0, 1), (1, 2),
+                (2, 0) of the first with each of the second. Triangles that are apart at the start
+                first meet in such elements
+      "elements": of a body with itself, proofs that such of its elements do not meet of which no
+        two triangles without a common vertex have one each (loose_elements)
+    "touch": [triangle, triangle, weights, weights]: they share a point at t = 0
+    "meet": [KIND, [body, vertex], [body, triangle], proof] or [KIND, [body, vertex, vertex], [body,
+      vertex, vertex], proof]: elements that meet, as below. That nothing meets before is not proven
+Not certified, besides the above: what meets on other paths; which neighbours among triangles meet
+in more than they share.
+
 An export with --queries --certificates is checked likewise: whether two moving elements meet.
 queries.json           counts, and the CRC-32 of every file below
 KIND.csv               eight lines a query: its four points at t = 0, then at t = 1, as
@@ -80,7 +109,7 @@ def read(folder, index, name):
 class Body:  # in one frame after the other; the extents of its boxes are doubles, only compared
     def __init__(self, entry, order, welded=None):
         self.entry, self.order, self.faces = entry, json.loads(order), None
-        self.welded = welded and json.loads(welded)
+        self.welded, self.loose_ = welded and json.loads(welded), None
         require(self.order and sorted(self.order) == list(range(entry["triangles"])),
                 f"{entry['folder']}/order.json is no permutation of the triangles")
 
@@ -92,24 +121,30 @@ class Body:  # in one frame after the other; the extents of its boxes are double
         require(len(data) == split + 13 * self.entry["triangles"], f"{name}: another length")
         self.vertices = list(struct.iter_unpack("<3d", data[:split]))
         require(all(math.isfinite(x) for v in self.vertices for x in v), f"{name}: not finite")
-        self.faces = self.faces or data[split:]
+        if self.faces is None:
+            self.faces = data[split:]
+            self.triangles = list(struct.iter_unpack("<B3i", self.faces))
+            require(all(t[0] == 3 and min(t[1:]) >= 0 and max(t[1:]) < vertices
+                        for t in self.triangles), f"{name}: faces that are no triangles")
         require(data[split:] == self.faces, f"{name}: other triangles than in earlier frames")
-        self.triangles = list(struct.iter_unpack("<B3i", self.faces))
-        require(all(t[0] == 3 and min(t[1:]) >= 0 and max(t[1:]) < vertices
-                    for t in self.triangles), f"{name}: faces that are no triangles")
         self.linked = self.welded or [list(t[1:]) for t in self.triangles]
         require(len(self.linked) == len(self.triangles) and all(
             self.vertices[v] == self.vertices[w] for own, linked in zip(self.triangles, self.linked)
             for v, w in zip(own[1:], linked)), f"{name}: welded vertices are not at one place")
-        places = [self.corners(t) for t in self.order]
-        self.low = [[min(a[k], b[k], c[k]) for a, b, c in places] for k in range(3)]
-        self.high = [[max(a[k], b[k], c[k]) for a, b, c in places] for k in range(3)]
         self.known = {}
 
     def corners(self, triangle):
         return [self.vertices[v] for v in self.triangles[triangle][1:]]
 
+    def loose(self):
+        self.loose_ = self.loose_ or loose_elements([t[1:] for t in self.triangles], self.linked)
+        return self.loose_
+
     def extent(self, axis, i, j):
+        if not self.known:
+            places = [self.corners(t) for t in self.order]
+            self.low = [[min(a[k], b[k], c[k]) for a, b, c in places] for k in range(3)]
+            self.high = [[max(a[k], b[k], c[k]) for a, b, c in places] for k in range(3)]
         if (axis, i, j) not in self.known:
             self.known[axis, i, j] = min(self.low[axis][i:j]), max(self.high[axis][i:j])
         return self.known[axis, i, j]
@@ -304,20 +339,28 @@ def check_frame(entry, truth, bodies, own):
         require(not rest, f"{kind} list {next(iter(rest), ())}, which nothing decided to be one")
 
 
+def read_bodies(folder, index):
+    return [Body(b, read(folder, index, b["folder"] + "/order.json"),
+                 b.get("welded") and read(folder, index, b["folder"] + "/welded.json"))
+            for b in index["bodies"]]
+
+
+def load_frame(folder, index, bodies, frame):
+    for body in bodies:
+        name = f"{body.entry['folder']}/frame_{frame:04}.ply"
+        body.load(name, read(folder, index, name))
+
+
 def check_frames(folder):
     index, chained = json.loads((folder / "scene.json").read_bytes()), 0
     require(index["schema"] == "contactcheck-certificates/1", "scene.json: another schema")
     frames, every = index["frames"], index["every"]
     require([f["frame"] for f in frames] == list(range(0, index["scene_frames"], every)),
             f"scene.json: not every frame out of {every} is there")
-    bodies = [Body(b, read(folder, index, b["folder"] + "/order.json"),
-                   b.get("welded") and read(folder, index, b["folder"] + "/welded.json"))
-              for b in index["bodies"]]
+    bodies = read_bodies(folder, index)
     for entry in frames:
         try:
-            for body in bodies:
-                name = f"{body.entry['folder']}/frame_{entry['frame']:04}.ply"
-                body.load(name, read(folder, index, name))
+            load_frame(folder, index, bodies, entry["frame"])
             truth = json.loads(read(folder, index, f"truth/frame_{entry['frame']:04}.json"))
             check_frame(entry, truth, bodies, index.get("self", False))
         except Wrong as wrong:
@@ -365,7 +408,12 @@ class Form:
 class Query:
     """The places of the points at both ends of the step, times one number that makes integers."""
 
-    def __init__(self, kind, rows):
+    def __init__(self, kind, start, end, contact):
+        self.start, self.end = start, end
+        self.first, self.contact = FIRST[kind], contact
+
+    @classmethod
+    def of_rows(cls, kind, rows):
         truths, places = set(), []
         for row in rows:
             *coordinates, truth = (int(x) for x in row.split(","))
@@ -375,8 +423,7 @@ class Query:
         require(truths in ({0}, {1}), "the truth is not 0, nor is it 1, on all its lines")
         places, _ = whole(places)
         points = [places[k:k + 3] for k in range(0, 24, 3)]
-        self.start, self.end = points[:4], points[4:]
-        self.first, self.contact = FIRST[kind], truths == {1}
+        return cls(kind, points[:4], points[4:], truths == {1})
 
     def at(self, time, unit):
         """The points at a time, times a number that makes it an integer."""
@@ -527,7 +574,7 @@ def check_kind(folder, index, kind):
     apart = contacts = unproved = 0
     for n, line in enumerate(lines):
         try:
-            query, proof = Query(kind, rows[8 * n:8 * n + 8]), json.loads(line)
+            query, proof = Query.of_rows(kind, rows[8 * n:8 * n + 8]), json.loads(line)
             if proof is None:
                 unproved += 1
                 continue
@@ -550,7 +597,280 @@ def check_queries(folder):
     return f"{index['scene']}: " + "; ".join(check_kind(folder, index, kind) for kind in FIRST)
 
 
+# --- Steps: what meets between frames.
+
+
+def loose_elements(triangles, linked):
+    """What the whole triangles say nothing of: vertices with triangles, and edges with edges, that
+    share no vertex, where every triangle of the one shares a vertex with every triangle of the
+    other. The first are (vertex, triangle), the second (vertex, vertex, vertex, vertex)."""
+    sets = [frozenset(corners) for corners in linked]
+    around, edges = {}, []
+    for t, corners in enumerate(linked):
+        for v in sets[t]:
+            around.setdefault(v, set()).add(t)
+        edges.append({tuple(sorted((corners[i], corners[i - 1]))) for i in range(3)
+                      if triangles[t][i] != triangles[t][i - 1]})
+
+    def all_share(of_one, of_other):
+        return all(sets[s] & sets[t] for s in of_one for t in of_other)
+
+    vertices, pairs = set(), set()
+    for s, own in enumerate(sets):
+        for t in set().union(*(around[v] for v in own)) - {s}:
+            vertices.update((v, t) for v in own - sets[t] if all_share(around[v], [t]))
+            for e in edges[s]:
+                for f in edges[t]:
+                    if e < f and not {*e} & {*f} and e + f not in pairs and all_share(
+                            around[e[0]] & around[e[1]], around[f[0]] & around[f[1]]):
+                        pairs.add(e + f)
+    return sorted(vertices), sorted(pairs)
+
+
+WHOLE = 0, 1  # part 0 of 1 of the step
+
+
+class Moving:
+    """A body in a step: vertices at both ends, and boxes of ranges of triangles."""
+
+    def __init__(self, body, start, end, unit):
+        self.body, self.order, self.linked, self.unit = body, body.order, body.linked, unit
+        self.triangles = [t[1:] for t in body.triangles]
+        self.points = [p + q for p, q in zip(start, end)]  # x, y, z at t = 0, then at t = 1
+        self.boxes, self.known = {}, {}
+
+    def whole(self, v):
+        """A vertex as six integers: all of a step times one power of two."""
+        if v not in self.known:
+            ratios = [x.as_integer_ratio() for x in self.points[v]]
+            self.known[v] = tuple(n * (self.unit // d) for n, d in ratios)
+        return self.known[v]
+
+    def box(self, i, j):
+        """Six times (low, high), doubles: along x, y, z at t = 0, then at t = 1."""
+        if (i, j) not in self.boxes:
+            if j - i == 1:
+                corners = zip(*[self.points[v] for v in self.triangles[self.order[i]]])
+                self.boxes[i, j] = [(min(x), max(x)) for x in corners]
+            else:
+                half = i + (j - i) // 2
+                self.boxes[i, j] = [(min(a, c), max(b, d)) for (a, b), (c, d)
+                                    in zip(self.box(i, half), self.box(half, j))]
+        return self.boxes[i, j]
+
+    def vertices(self, i, j):
+        return [self.whole(v) for v in {v for t in self.order[i:j] for v in self.triangles[t]}]
+
+
+def ends(at_start, at_end, part):
+    """What moves straight, at both ends of a part of the step, times the number of parts."""
+    if part == WHOLE:
+        return at_start, at_end
+    n, parts = part
+    if isinstance(at_start, float):
+        at_start, at_end = Fraction(at_start), Fraction(at_end)
+    return at_start * (parts - n) + at_end * n, at_start * (parts - n - 1) + at_end * (n + 1)
+
+
+def boxes_apart(one, other, axis, part):
+    def before(first, second):
+        high = ends(first[axis][1], first[axis + 3][1], part)
+        low = ends(second[axis][0], second[axis + 3][0], part)
+        return high[0] < low[0] and high[1] < low[1]
+    return before(one, other) or before(other, one)
+
+
+def direction_leads(direction, one, other, part):
+    x, y, z = direction
+    low, high = (list(zip(*(ends(x * a + y * b + z * c, x * d + y * e + z * f, part)
+                            for a, b, c, d, e, f in points))) for points in (one, other))
+    return min(low[0]) > max(high[0]) and min(low[1]) > max(high[1])
+
+
+def elements_of(p, q):
+    """The fifteen pairs of elements of two triangles: kind, and the corners' places in p + q."""
+    for i in range(3):
+        yield "vertex-face", (i, 3, 4, 5)
+    for j in range(3):
+        yield "vertex-face", (3 + j, 0, 1, 2)
+    for i in range(3):
+        for j in range(3):
+            yield "edge-edge", (i, (i + 1) % 3, 3 + j, 3 + (j + 1) % 3)
+
+
+def prove_elements(kind, points, proof, contact=False):
+    prove_query(Query(kind, [p[:3] for p in points], [p[3:] for p in points], contact), proof)
+
+
+def prove_triangles(p, q, plane, proofs):
+    """Two triangles, as corners at both ends, do not meet in the step."""
+    corners = [[p[:3] for p in triangle] for triangle in (p, q)]
+    # The plane speaks of doubles, not of these integers times a unit: a direction is enough.
+    (*normal, _), _ = whole([number(n) for n in plane])
+    require(len(normal) == 3 and max(dot(normal, x) for x in corners[0]) <
+            min(dot(normal, x) for x in corners[1]), "the plane does not separate them")
+    wanted = list(elements_of(p, q))
+    require(len(proofs) == len(wanted), "not a proof for each of the fifteen pairs of elements")
+    for (kind, places), proof in zip(wanted, proofs):
+        prove_elements(kind, [(p + q)[n] for n in places], proof)
+
+
+def prove_decisions(one, other, entry):
+    """Follows the decisions on two bodies, or on one with itself."""
+    own, at = one is other, 0
+    directions, triangles = iter(entry["directions"]), iter(entry["triangles"])
+    decisions = entry["decisions"]
+    require(all(type(x) is int for n in entry["directions"] for x in n),
+            "directions are not of integers")
+    todo = [(0, len(one.order), 0, len(other.order), WHOLE)]
+    while todo:
+        i, j, k, l, part = todo.pop()
+        if own and i == k:
+            half = i + (j - i) // 2
+            if j - i > 1:
+                todo += [(i, half, half, j, part), (half, j, half, j, part),
+                         (i, half, i, half, part)]
+            continue
+        step, at = decisions[at:at + 1], at + 1
+        try:
+            if step == "a" and j - i > 1:
+                todo += [(i + (j - i) // 2, j, k, l, part), (i, i + (j - i) // 2, k, l, part)]
+            elif step == "b" and l - k > 1:
+                todo += [(i, j, k + (l - k) // 2, l, part), (i, j, k, k + (l - k) // 2, part)]
+            elif step == "h":
+                n, parts = part
+                todo += [(i, j, k, l, (2 * n + 1, 2 * parts)), (i, j, k, l, (2 * n, 2 * parts))]
+            elif step and step in "xyz":
+                require(boxes_apart(one.box(i, j), other.box(k, l), "xyz".index(step), part),
+                        "the boxes are not apart")
+            elif step == "s":
+                require(direction_leads(next(directions), one.vertices(i, j), other.vertices(k, l),
+                                        part), "the direction does not separate them")
+            else:
+                require(step, "the decisions end before all pairs are covered")
+                require(step in "nf" and j - i == l - k == 1, "cannot be decided so")
+                s, t = one.order[i], other.order[k]
+                if step == "n":
+                    require(own and {*one.linked[s]} & {*one.linked[t]}, "they share no vertex")
+                else:
+                    require(part == WHOLE, "not in the whole step")
+                    p, q = ([body.whole(v) for v in body.triangles[x]]
+                            for body, x in ((one, s), (other, t)))
+                    prove_triangles(p, q, *next(triangles))
+        except Wrong as wrong:
+            raise Wrong(f"decision {at} (\"{step}\": {i} .. {j} of the first, {k} .. {l} of the "
+                        f"second, part {part[0]} of {part[1]}): {wrong}") from None
+        except StopIteration:
+            raise Wrong(f"decision {at} (\"{step}\"): it has no proof") from None
+    require(at == len(decisions), "the decisions go on when all pairs are covered")
+    require(next(directions, None) is None and next(triangles, None) is None,
+            "there are more proofs than decisions")
+    loose = one.body.loose() if own else ([], [])
+    require(len(entry["elements"]) == sum(map(len, loose)),
+            f"not a proof for each of the {sum(map(len, loose))} loose pairs of elements")
+    proofs = iter(entry["elements"])
+    for v, t in loose[0]:
+        prove_elements("vertex-face", [one.whole(w) for w in (v, *one.linked[t])], next(proofs))
+    for four in loose[1]:
+        prove_elements("edge-edge", [one.whole(v) for v in four], next(proofs))
+
+
+def prove_touch(one, other, s, t, *weights):
+    require(one is not other or not {*one.linked[s]} & {*one.linked[t]}, "they share a vertex")
+    p, q = ([body.points[v][:3] for v in body.triangles[x]] for body, x in ((one, s), (other, t)))
+    require(is_common_point(p, q, *weights), "the witness is no point of both")
+
+
+def prove_meeting(bodies, pair, kind, first, second, proof):
+    """Each element as its body, and a vertex, a triangle or two vertices of an edge."""
+    require(sorted([first[0], second[0]]) == pair, "they are not of these bodies")
+    vertices, places = [], []
+    for place, (b, *named) in enumerate((first, second)):
+        body = bodies[b]
+        if kind == "vertex-face":
+            require(len(named) == 1, "not one vertex or triangle")
+            used = body.triangles[named[0]] if place else named
+        else:
+            used = named
+            require(any({*named} <= {*t} for t in body.triangles) and len({*named}) == 2,
+                    "this is no edge")
+        at = {v: w for t, linked in zip(body.triangles, body.linked) for v, w in zip(t, linked)}
+        vertices.append({at[v] for v in used})
+        places += [body.whole(v) for v in used]
+    require(first[0] != second[0] or not vertices[0] & vertices[1], "they share a vertex")
+    prove_elements(kind, places, proof, True)
+
+
+def check_pair(bodies, pair, entry):
+    """What is proven of a pair of bodies: "apart", "contacts" or, that is nothing, "unproved"."""
+    require(entry["bodies"] == pair, "this pair of bodies is not in its place")
+    one, other = (bodies[b] for b in pair)
+    if "unproved" in entry:
+        return "unproved"
+    if "decisions" in entry:
+        prove_decisions(one, other, entry)
+        return "apart"
+    if "touch" in entry:
+        prove_touch(one, other, *entry["touch"])
+    else:
+        prove_meeting(bodies, pair, *entry["meet"])
+    return "contacts"
+
+
+def check_step(entry, truth, bodies, own):
+    pairs = [list(p) for p in combinations(range(len(bodies)), 2)]
+    pairs += [[b, b] for b in range(len(bodies)) if own]
+    require(len(truth["pairs"]) == len(pairs), "not one proof for every pair of bodies")
+    counts = dict.fromkeys(("apart", "contacts", "unproved"), 0)
+    for pair, proof in zip(pairs, truth["pairs"]):
+        try:
+            counts[check_pair(bodies, pair, proof)] += 1
+        except Wrong as wrong:
+            raise Wrong(f"bodies {pair[0]} and {pair[1]}: {wrong}") from None
+    require(all(entry[key] == count for key, count in counts.items()),
+            "steps.json has other counts of pairs of bodies")
+
+
+def unit_of(frames):
+    """The least power of two that makes integers of all coordinates."""
+    lowest = min((math.frexp(x)[1] - 53 for frame in frames for vertices in frame
+                  for v in vertices for x in v if x), default=0)
+    return 2 ** max(0, -lowest)
+
+
+def check_steps(folder):
+    index = json.loads((folder / "steps.json").read_bytes())
+    require(index["schema"] == "contactcheck-step-certificates/1", "steps.json: another schema")
+    own, steps = index["self"], index["steps"]
+    require([s["step"] for s in steps] == list(range(index["frames"] - 1)) and steps,
+            "steps.json: not every step is there")
+    bodies, before = read_bodies(folder, index), None
+    for frame in range(index["frames"]):
+        step = frame - 1
+        try:
+            load_frame(folder, index, bodies, frame)
+            places = [body.vertices for body in bodies]
+            if before:
+                truth = json.loads(read(folder, index, f"truth/step_{step:04}.json"))
+                unit = unit_of((before, places))
+                moving = [Moving(*both, unit) for both in zip(bodies, before, places)]
+                check_step(steps[step], truth, moving, own)
+        except Wrong as wrong:
+            raise Wrong((f"step {step} to {frame}: " if before else "") + str(wrong)) from None
+        before = places
+    apart, contacts, unproved = (sum(s[key] for s in steps)
+                                 for key in ("apart", "contacts", "unproved"))
+    meet = [str(s["step"]) for s in steps if s["contacts"]]
+    listed = f" (from frames {', '.join(meet[:10])}{', ...' * (len(meet) > 10)})" * bool(meet)
+    pairs = "pairs of bodies" + ", each with itself among them," * own
+    return (f"{index['scene']}: {len(steps)} steps, on straight paths between these frames: "
+            f"{apart} {pairs} proven apart, {contacts} proven in contact{listed}, "
+            f"{unproved} without proof")
+
+
 def check_export(folder):
+    if (folder / "steps.json").is_file():
+        return check_steps(folder)
     if (folder / "queries.json").is_file():
         return check_queries(folder)
     require((folder / "scene.json").is_file(), "scene.json is missing: this is no whole export")

@@ -123,7 +123,8 @@ def test_help_of_reproduce_names_its_flags_and_its_files():
 
 def test_help_of_export_names_its_flags_and_the_checker():
     text = on_one_line(help_of("export"))
-    for word in ("--frames", "--every", "--queries", "--certificates", "--out", "out/export", "check.py"):
+    for word in ("--frames", "--every", "--between", "on straight paths between these frames", "--weld",
+                 "--queries", "--certificates", "--out", "out/export", "check.py"):
         assert word in text
 
 

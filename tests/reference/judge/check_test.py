@@ -59,8 +59,36 @@ SELF_SCENE = {
     "bodies": [{"name": "all", "mesh": {"file": "neighbours.obj", "weld": True}}]}
 
 
+# Two bodies at 45 degrees to the axes: a gap in the first step, first contact in the second, contact
+# from the start in the third. A third one passes: apart along x first, then along y.
+MOVING_SCENE = {
+    "id": "moving", "title": "Boxes that come to touch, and one that passes", "frames": 4, "time_step": 1,
+    "levels": ["body", "self"],
+    "bodies": [
+        {"name": "still", "mesh": {"shape": "box", "divisions": 3}, "lattice": {"cells": [3, 3, 3]},
+         "motion": {"spins": [{"axis": "z", "degrees": 45}],
+                    "deformers": [{"twist": {"axis": "z", "degrees": [[0, 0], [3, 6]]}}]}},
+        {"name": "moves", "mesh": {"shape": "box", "divisions": 3}, "lattice": {"cells": [3, 3, 3]},
+         "motion": {"spins": [{"axis": "z", "degrees": 45}],
+                    "position": [[0, [0.78, 0.78, 0.1]], [1, [0.74, 0.76, 0.1]], [3, [0.6, 0.6, 0.2]]]}},
+        {"name": "passes", "mesh": {"file": "tetrahedron.obj"},
+         "motion": {"position": [[0, [9, -1, 0]], [1, [-1, 9, 0]]]}}]}
+
+# All its triangles share vertices.
+TETRAHEDRON = "v 0 0 0\nv 0.5 0 0\nv 0 0.5 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+# A corner of the second is 1e-30 off the plane of the first, over its middle: doubles find no
+# direction between them.
+CLOSE = {"one": "v 1234567891 987654321 555555555\nv -333333337 777777771 123456797\n"
+                "v -901234554 -1765432092 -679012352\nf 1 2 3\n",
+         "other": "v 1e-30 0 0\nv -9 100000000 -99999999\nv -12 100000000 -200000000\nf 1 2 3\n"}
+CLOSE_SCENE = {
+    "id": "close", "frames": 2, "duration": 1, "levels": ["body"],
+    "bodies": [{"name": name, "mesh": {"file": name + ".obj"}} for name in CLOSE]}
+
+
 class Exported(unittest.TestCase):
-    scene = SCENE
+    scene, words, last = SCENE, (), "scene.json"
 
     @classmethod
     def setUpClass(cls):
@@ -68,9 +96,11 @@ class Exported(unittest.TestCase):
         cls.addClassCleanup(scratch.cleanup)
         cls.exported = pathlib.Path(scratch.name)
         (cls.exported / "neighbours.obj").write_text(NEIGHBOURS)
+        for name, text in {**CLOSE, "tetrahedron": TETRAHEDRON}.items():
+            (cls.exported / f"{name}.obj").write_text(text)
         cls.file = cls.exported / f"{cls.scene['id']}.json"
         cls.file.write_text(json.dumps(cls.scene))
-        cls.contactcheck("export", cls.file, "--out", cls.exported)
+        cls.contactcheck("export", cls.file, *cls.words, "--out", cls.exported)
 
     def setUp(self):
         """Every test breaks a copy of its own."""
@@ -97,20 +127,20 @@ class Exported(unittest.TestCase):
             self.assertIn(piece, done.stderr)
 
     def index(self):
-        return json.loads((self.folder / "scene.json").read_bytes())
+        return json.loads((self.folder / self.last).read_bytes())
 
     def write(self, name, data):
         """Replaces a file, and its checksum in the index."""
         (self.folder / name).write_bytes(data)
-        if name != "scene.json":
+        if name != self.last:
             index = self.index()
             index["crc32"][name] = f"{zlib.crc32(data):08x}"
-            self.write("scene.json", json.dumps(index).encode())
+            self.write(self.last, json.dumps(index).encode())
 
     def change_index(self, change):
         index = self.index()
         change(index)
-        self.write("scene.json", json.dumps(index).encode())
+        self.write(self.last, json.dumps(index).encode())
 
     def change_truth(self, change, name=CONTACT_FRAME):
         truth = json.loads((self.folder / name).read_bytes())
@@ -444,6 +474,218 @@ class CheckSelfExport(Exported):
     def test_refuses_bodies_without_themselves(self):
         self.change_index(lambda index: index.update(self=False))
         self.refused("frame 0: the decisions go on when all pairs are covered")
+
+
+class StepsExported(Exported):
+    words, last = ("--between",), "steps.json"
+
+    def truth(self, step=0):
+        return json.loads((self.folder / f"truth/step_{step:04}.json").read_bytes())
+
+    def change_pair(self, bodies, change, step=0):
+        def change_one(truth):
+            change(next(entry for entry in truth["pairs"] if entry["bodies"] == bodies))
+        self.change_truth(change_one, f"truth/step_{step:04}.json")
+
+    def pair(self, bodies, step=0):
+        return next(entry for entry in self.truth(step)["pairs"] if entry["bodies"] == bodies)
+
+    def refused_pair(self, bodies, change, *pieces, step=0):
+        """A change of a fresh copy's pair is refused with these words."""
+        name = f"truth/step_{step:04}.json"
+        kept = (self.folder / name).read_bytes()
+        self.change_pair(bodies, change, step)
+        self.refused(f"step {step} to {step + 1}: bodies {bodies[0]} and {bodies[1]}: ", *pieces)
+        self.write(name, kept)
+
+
+class CheckStepExport(StepsExported):
+    scene = MOVING_SCENE
+    PAIRS = [[0, 1], [0, 2], [1, 2], [0, 0], [1, 1], [2, 2]]
+
+    def test_accepts_an_export(self):
+        done = self.check()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("moving: 3 steps, on straight paths between these frames: ", done.stdout)
+        self.assertIn(", 0 without proof", done.stdout)
+        self.assertEqual([entry["bodies"] for entry in self.truth()["pairs"]], self.PAIRS)
+        self.assertEqual([(s["apart"], s["contacts"]) for s in self.index()["steps"]],
+                         [(6, 0), (5, 1), (5, 1)])
+        self.assertIn("meet", self.pair([0, 1], 1))
+        self.assertIn("touch", self.pair([0, 1], 2))
+        self.assertTrue({*"abs"} <= {*self.pair([0, 1])["decisions"]}, self.pair([0, 1]))
+        self.assertEqual(self.pair([0, 2])["decisions"], "hxy")
+        self.assertIn("n", self.pair([0, 0])["decisions"])
+        self.assertTrue(self.pair([2, 2])["elements"])
+
+    def test_refuses_every_direction_turned_round(self):
+        for n in range(len(self.pair([0, 1])["directions"])):
+            def turn(entry, n=n):
+                entry["directions"][n] = [-x for x in entry["directions"][n]]
+            self.refused_pair([0, 1], turn, "the direction does not separate them")
+
+    def test_refuses_a_direction_of_fractions(self):
+        def change(entry):
+            entry["directions"][0][0] += 0.5
+        self.refused_pair([0, 1], change, "directions are not of integers")
+
+    def test_refuses_boxes_that_are_not_apart(self):
+        decisions = self.pair([0, 1])["decisions"]
+        for letter in "abs":
+            def change(entry, at=decisions.index(letter)):
+                entry["decisions"] = decisions[:at] + "z" + decisions[at + 1:]
+            self.refused_pair([0, 1], change, '("z": ', "the boxes are not apart")
+
+    def test_refuses_half_a_step_for_a_whole_one(self):
+        for letter in "xy":
+            def change(entry, letter=letter):
+                entry["decisions"] = letter
+            self.refused_pair([0, 2], change, "the boxes are not apart")
+
+    def test_refuses_halves_in_another_order(self):
+        def change(entry):
+            entry["decisions"] = "hyx"
+        self.refused_pair([0, 2], change, "part 0 of 2): the boxes are not apart")
+
+    def test_refuses_decisions_that_end_early_or_go_on(self):
+        def cut(entry):
+            entry["decisions"] = entry["decisions"][:-1]
+
+        def extend(entry):
+            entry["decisions"] += "x"
+        self.refused_pair([0, 2], cut, "the decisions end before all pairs are covered")
+        self.refused_pair([0, 2], extend, "the decisions go on when all pairs are covered")
+
+    def test_refuses_proofs_that_are_missing_or_too_many(self):
+        def drop(entry):
+            entry["directions"].pop()
+
+        def add(entry):
+            entry["directions"].append([1, 0, 0])
+        self.refused_pair([0, 1], drop, '("s"): it has no proof')
+        self.refused_pair([0, 1], add, "there are more proofs than decisions")
+
+    def test_refuses_neighbours_that_are_none(self):
+        def change(entry):
+            at = entry["decisions"].rindex("s")
+            entry["decisions"] = entry["decisions"][:at] + "n" + entry["decisions"][at + 1:]
+        for bodies in ([0, 1], [0, 0]):
+            # The last "s" may be of ranges.
+            self.refused_pair(bodies, change, '("n": ')
+
+    def test_refuses_forgotten_elements_of_a_body(self):
+        def drop(entry):
+            entry["elements"].pop()
+
+        def cut(entry):
+            entry["elements"][0]["apart"][-1][0] = 0.5
+        self.refused_pair([2, 2], drop, "loose pairs of elements")
+        self.refused_pair([2, 2], cut, "the pieces end at t = 0.5")
+
+    def test_refuses_a_contact_said_to_be_none(self):
+        apart = self.pair([0, 1])
+        for step in (1, 2):
+            def change(entry):
+                entry.clear()
+                entry.update(apart)
+            self.refused_pair([0, 1], change, 'decision ', step=step)
+
+    def test_refuses_a_contact_of_other_elements(self):
+        def other(entry):
+            entry["meet"][1][1] = 0 if entry["meet"][1][1] else 1
+        self.refused_pair([0, 1], other, step=1)
+
+        def swapped(entry):
+            entry["meet"][1][0] = 2
+        self.refused_pair([0, 1], swapped, "they are not of these bodies", step=1)
+
+    def test_refuses_a_contact_at_another_time(self):
+        def later(entry):
+            proof = entry["meet"][3]
+            key = "crosses" if "crosses" in proof else "meets"
+            proof[key][0] = 0.999
+        self.refused_pair([0, 1], later, "the elements are not proven to", step=1)
+
+    def test_refuses_a_witness_that_is_none(self):
+        def change(entry):
+            entry["touch"][2] = ["1", "0", "0"]
+        self.refused_pair([0, 1], change, "the witness is no point of both", step=2)
+
+    def test_refuses_a_pair_in_the_place_of_another(self):
+        def swap(truth):
+            truth["pairs"][0], truth["pairs"][1] = truth["pairs"][1], truth["pairs"][0]
+        self.change_truth(swap, "truth/step_0000.json")
+        self.refused("step 0 to 1: bodies 0 and 1: this pair of bodies is not in its place")
+
+    def test_refuses_a_forgotten_pair(self):
+        self.change_truth(lambda truth: truth["pairs"].pop(), "truth/step_0000.json")
+        self.refused("step 0 to 1: not one proof for every pair of bodies")
+
+    def test_refuses_a_proof_that_is_not_counted_as_missing(self):
+        def forget(entry):
+            del entry["decisions"]
+            entry["unproved"] = "apart"
+        self.change_pair([0, 1], forget)
+        self.refused("steps.json has other counts of pairs of bodies")
+        self.change_index(lambda index: index["steps"][0].update(apart=5, unproved=1))
+        self.assertIn(", 1 without proof", self.check().stdout)
+
+    def test_refuses_a_missing_step(self):
+        self.change_index(lambda index: index["steps"].pop())
+        self.refused("steps.json: not every step is there")
+
+    def test_refuses_bodies_without_themselves(self):
+        self.change_index(lambda index: index.update(self=False))
+        self.refused("step 0 to 1: not one proof for every pair of bodies")
+
+    def test_refuses_a_vertex_that_is_moved_at_either_end(self):
+        for frame in (0, 1):
+            name = f"bodies/1-moves/frame_{frame:04}.ply"
+            kept = (self.folder / name).read_bytes()
+            start = kept.index(b"end_header\n") + 11
+            x, y, z = struct.unpack_from("<3d", kept, start)
+            moved = kept[:start] + struct.pack("<3d", x - 1, y - 1, z) + kept[start + 24:]
+            (self.folder / name).write_bytes(moved)
+            self.refused(name, "another CRC-32")
+            self.write(name, moved)
+            self.refused("step 0 to 1: bodies 0 and 1: decision ")
+            self.write(name, kept)
+
+    def test_refuses_another_schema(self):
+        self.change_index(lambda index: index.update(schema="contactcheck-certificates/1"))
+        self.refused("steps.json: another schema")
+
+
+class CheckCloseTriangles(StepsExported):
+    """Elements prove them apart, where no direction of few bits does."""
+    scene = CLOSE_SCENE
+
+    def test_accepts_an_export(self):
+        self.assertEqual(self.check().returncode, 0, self.check().stderr)
+        self.assertEqual(self.pair([0, 1])["decisions"], "f")
+
+    def test_refuses_a_plane_that_does_not_separate(self):
+        def turn(entry):
+            plane = entry["triangles"][0][0]
+            plane[:3] = [x[1:] if x[0] == "-" else "-" + x for x in map(str, plane[:3])]
+        self.refused_pair([0, 1], turn, "the plane does not separate them")
+
+    def test_refuses_fewer_elements(self):
+        def drop(entry):
+            entry["triangles"][0][1].pop()
+        self.refused_pair([0, 1], drop, "not a proof for each of the fifteen pairs of elements")
+
+    def test_refuses_each_of_the_elements_without_its_proof(self):
+        for n in range(15):
+            def turn(entry, n=n):
+                entry["triangles"][0][1][n] = {"apart": [[1, "direction", 0, 0, 0]]}
+            self.refused_pair([0, 1], turn, "the elements are not proven apart up to t = 1.0")
+
+    def test_refuses_half_a_step(self):
+        def halve(entry):
+            entry["decisions"] = "hff"
+            entry["triangles"] *= 2
+        self.refused_pair([0, 1], halve, "not in the whole step")
 
 
 if __name__ == "__main__":

@@ -21,6 +21,17 @@
 #include "reference/oracle/likely_direction.h"
 
 namespace contactcheck::oracle::certify {
+
+using WholePoint = std::array<mpz_class, 3>;
+
+/// One body in one step: its boxes at both ends, and its vertices times one power of two.
+struct MovingBody {
+  explicit MovingBody(const TriangleMesh& rest) : start(rest), end(rest) {}
+
+  RangeTree start, end;
+  std::vector<std::array<WholePoint, 2>> vertices;
+};
+
 namespace {
 
 // --- Loose elements
@@ -120,8 +131,6 @@ struct StepPart {
 // Parts of less than a millionth of the step are not looked at.
 constexpr int kMostHalvings = 20;
 
-using WholePoint = std::array<mpz_class, 3>;
-
 /// The lowest bit of any of the numbers, as a power of two.
 int lowest_bit(std::span<const Vec3> points, int lowest) {
   for (const Vec3& p : points)
@@ -150,14 +159,6 @@ WholePoint whole(const Vec3& p, int lowest) {
   }
   return out;
 }
-
-/// One body in one step: its boxes at both ends, and its vertices times one power of two.
-struct MovingBody {
-  explicit MovingBody(const TriangleMesh& rest) : start(rest), end(rest) {}
-
-  RangeTree start, end;
-  std::vector<std::array<WholePoint, 2>> vertices;
-};
 
 /// A value at t = start and t = end of a part, of one at both ends of the step.
 std::array<double, 2> at_ends(double start, double end, const StepPart& part) {
@@ -299,13 +300,13 @@ class PairProver {
   }
 
   std::vector<std::uint32_t> vertices_of(std::uint32_t body, const Range& range) const {
-    std::vector<std::uint32_t> out;
+    std::vector<std::uint32_t> used;
     for (std::size_t place = range.first; place < range.last; ++place)
       for (const std::uint32_t v : triangle(body, moving_[body].start.order()[place]))
-        out.push_back(v);
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
+        used.push_back(v);
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    return used;
   }
 
   // --- Directions
@@ -331,7 +332,7 @@ class PairProver {
   // From a corner, and in the size of all.
   std::array<Clouds, 2> clouds(const std::vector<std::uint32_t>& of_a,
                                const std::vector<std::uint32_t>& of_b, const StepPart& part) const {
-    std::array<Clouds, 2> out;
+    std::array<Clouds, 2> both;
     const Vec3 origin = place(pair_.a, of_a.front(), part.start());
     double size = 0;
     for (const std::size_t k : {0, 1}) {
@@ -340,14 +341,14 @@ class PairProver {
         to.push_back(place(body, v, t) - origin);
         size = std::max(size, to.back().cwiseAbs().maxCoeff());
       };
-      for (const std::uint32_t v : of_a) add(pair_.a, v, out[k].p);
-      for (const std::uint32_t v : of_b) add(pair_.b, v, out[k].q);
+      for (const std::uint32_t v : of_a) add(pair_.a, v, both[k].p);
+      for (const std::uint32_t v : of_b) add(pair_.b, v, both[k].q);
     }
     const int exponent = exponent_above(size);
-    for (Clouds& at : out)
+    for (Clouds& at : both)
       for (std::vector<Vec3>* points : {&at.p, &at.q})
         for (Vec3& p : *points) p = scaled_by_two_to(-exponent, p);
-    return out;
+    return both;
   }
 
   Vec3 place(std::uint32_t body, std::uint32_t v, double t) const {

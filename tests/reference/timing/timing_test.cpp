@@ -158,7 +158,7 @@ TEST_F(Timing, AsksEveryFrameOnceInOrder) {
 // Writes down how many vertices it is given of each body, in frames and at both ends of steps.
 class Receiver : public Diary {
  public:
-  explicit Receiver(bool vertices) : Diary(vertices) {}
+  explicit Receiver(bool needs) : Diary(needs) {}
   void update(const Frame& frame) override { note(frame); }
   void update_step(const Step& step) override {
     note(step.start);

@@ -12,8 +12,7 @@ namespace contactcheck {
 Impact find_impact(const ImpactQuery& query);
 
 /// The same for whoever looks for the first of many contacts: a time that is certainly after
-/// `until` need not be certified, and its interval may be wider than kImpactTimeWidth. Half the
-/// time of most contacts goes into that.
+/// `until` need not be certified, and its interval may be wider than kImpactTimeWidth.
 Impact find_impact(const ImpactQuery& query, double until);
 
 /// The exact path alone, without a filter: slow.

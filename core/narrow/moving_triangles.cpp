@@ -37,12 +37,10 @@ RelativeCorners::RelativeCorners(const MovingTriangle& first, const MovingTriang
 // Notation: u = 2^-53; n is the direction, exact or not, N the sum of its |coordinates|; d a
 // corner, D the largest |coordinate| of corners. Errors are counted to first order in u.
 //   * d rounds by u D per coordinate, as a difference of doubles: n.d by u N D.
-//   * The three products of n.d round by u N D together, each of the two sums by u N D at most.
-//   With
-//     d that makes 4 u N D.
+//   * The three products of n.d round by u N D together, each of the two sums by u N D at most:
+//     with d that makes 4 u N D.
 //   * A gap is the difference of two n.d: 8 u N D. Its own rounding is monotone: the computed one
-//   is
-//     not larger than a number that the exact difference of the two is not larger than.
+//     is not larger than a number that the exact difference of the two is not larger than.
 //   * 9 u N D is taken, for the error is rounded as well, and 2^-1000 for products that underflow.
 Gap gap_along(const Vec3& normal, const RelativeCorners& corners) {
   const auto at = [&](std::size_t first) {

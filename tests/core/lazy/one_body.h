@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -186,5 +188,31 @@ inline ShapePtr box_on_its_nodes(int n) {
   for (int i = 0; i <= n; ++i) line.push_back(i);
   return make_shape_on_lines(box_mesh(Vec3::Zero(), Vec3::Constant(n), n), {line, line, line});
 }
+
+/// For a search of large errors (climb): nodes near the corners of a cube of half-width 1 about a
+/// place, in any order, that turn a cell inside out; and small changes of one of them.
+class TurnedCells {
+ public:
+  TurnedCells(TriangleSource& random, std::size_t nodes, double place)
+      : random_(random), nodes_(nodes), place_(place) {}
+
+  std::vector<Vec3> make() const {
+    std::vector<Vec3> out(nodes_);
+    for (Vec3& n : out) {
+      n = random_.point(Vec3(place_, -place_, 0.7 * place_), std::ldexp(1.0, -random_.below(20)));
+      for (int k = 0; k < 3; ++k) n[k] += 2 * random_.below(2) - 1;
+    }
+    return out;
+  }
+  void change(std::vector<Vec3>& nodes) const {
+    Vec3& n = nodes[static_cast<std::size_t>(random_.below(static_cast<int>(nodes.size())))];
+    n[random_.below(3)] += std::ldexp(random_.unit(), -random_.below(24));
+  }
+
+ private:
+  TriangleSource& random_;
+  std::size_t nodes_;
+  double place_;
+};
 
 }  // namespace contactcheck::test

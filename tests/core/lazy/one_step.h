@@ -168,23 +168,14 @@ inline double largest_step_box_error(const LazyKernels& kernels, double place) {
   const ShapePtr shape = make_shape(sphere_mesh(Vec3::Zero(), 1.0, 0), {1, 1, 1});
   std::vector<Vec3> start(shape->node_count());
   for (Vec3& n : start) n = random.point(Vec3::Zero(), 0.25);
-  const auto make = [&] {
-    std::vector<Vec3> end(shape->node_count());
-    for (Vec3& n : end) {
-      n = random.point(Vec3(place, -place, 0.7 * place), std::ldexp(1.0, -random.below(20)));
-      for (int k = 0; k < 3; ++k) n[k] += 2 * random.below(2) - 1;
-    }
-    return end;
-  };
-  const auto change = [&](std::vector<Vec3>& end) {
-    Vec3& n = end[static_cast<std::size_t>(random.below(static_cast<int>(end.size())))];
-    n[random.below(3)] += std::ldexp(random.unit(), -random.below(24));
-  };
+  const TurnedCells cells(random, shape->node_count(), place);
   OneStep body(shape, false);
-  return climb(2, 300, make, change, [&](const std::vector<Vec3>& end) {
-    body.begin(start, end, kernels);
-    return body.errors().box;
-  });
+  return climb(
+      2, 300, [&] { return cells.make(); }, [&](std::vector<Vec3>& end) { cells.change(end); },
+      [&](const std::vector<Vec3>& end) {
+        body.begin(start, end, kernels);
+        return body.errors().box;
+      });
 }
 
 /// The largest error of slabs in a search: a flat square, which is mapped by affine maps that have

@@ -95,20 +95,11 @@ double searched(const ShapePtr& shape, Precision precision, double company, doub
 double searched_boxes(Precision precision, double place) {
   TriangleSource random(541);
   const ShapePtr shape = make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 0), {1, 1, 1});
-  const auto make = [&] {
-    std::vector<Vec3> nodes(shape->node_count());
-    for (Vec3& n : nodes) {
-      n = random.point(Vec3(place, -place, 0.7 * place), std::ldexp(1.0, -random.below(20)));
-      for (int k = 0; k < 3; ++k) n[k] += 2 * random.below(2) - 1;
-    }
-    return nodes;
-  };
-  const auto change = [&](std::vector<Vec3>& nodes) {
-    Vec3& n = nodes[static_cast<std::size_t>(random.below(static_cast<int>(nodes.size())))];
-    n[random.below(3)] += std::ldexp(random.unit(), -random.below(24));
-  };
-  return searched(shape, precision, 0.0, &Ratios::box, 2, make, change,
-                  [](const std::vector<Vec3>& nodes) { return nodes; });
+  const test::TurnedCells cells(random, shape->node_count(), place);
+  return searched(
+      shape, precision, 0.0, &Ratios::box, 2, [&] { return cells.make(); },
+      [&](std::vector<Vec3>& nodes) { cells.change(nodes); },
+      [](const std::vector<Vec3>& nodes) { return nodes; });
 }
 
 TEST(StateSlack, OfBoxesIsUsed) {

@@ -32,23 +32,44 @@ LazySteps::LazySteps(const std::vector<Body>& bodies,
   contacts_.prepare(bodies);
 }
 
+// A refitted body without given vertices has the box of its nodes until it may meet another.
 void LazySteps::begin(std::size_t body, const Step& step) {
   Places& places = places_[body];
-  const auto begin_one = [&](LazyState& state, const BodyState& of, std::vector<Vec3>& mapped,
+  LazyState &start = starts_[body], &end = ends_[body];
+  const bool kept = step.follows && step_ > 1;
+  if (kept) std::swap(places.start, places.end);
+  places.start_mapped = kept && places.end_mapped;
+  places.end_mapped = false;
+  const auto begin_one = [&](LazyState& state, const BodyState& of, std::span<const Vec3> mapped,
                              std::span<const Vec3>& vertices) {
     CONTACTCHECK_INVARIANT(of.nodes.size() == state.shape->node_count(), "one position per node");
     // Without a lattice the nodes are the vertices; given ones are used.
-    vertices = !state.shape->lattice ? of.nodes : of.vertices;
-    if (state.from_vertices && vertices.empty()) {
-      map_body(*state.shape, of.nodes, mapped);
-      vertices = mapped;
+    const std::span<const Vec3> given = !state.shape->lattice ? of.nodes : of.vertices;
+    const bool by_vertices = state.from_vertices && !given.empty();
+    vertices = by_vertices ? given : mapped;
+    if (kept && &state == &start) {
+      begin_same_frame(start, end, of.nodes, by_vertices ? given : std::span<const Vec3>());
+    } else if (by_vertices) {
+      begin_frame_by_vertices(state, given);
+    } else {
+      begin_frame_by_nodes(state, of.nodes);
     }
-    if (state.from_vertices) return begin_frame_by_vertices(state, vertices);
-    begin_frame_by_nodes(state, of.nodes);
-    vertices = mapped;
   };
-  begin_one(starts_[body], step.start.bodies[body], places.start, places.at_start);
-  begin_one(ends_[body], step.end.bodies[body], places.end, places.at_end);
+  begin_one(start, step.start.bodies[body], places.start, places.at_start);
+  begin_one(end, step.end.bodies[body], places.end, places.at_end);
+}
+
+// Of a refitted body, unless they are given.
+void LazySteps::map_vertices_of(std::size_t body) {
+  Places& places = places_[body];
+  const auto map = [](LazyState& state, std::vector<Vec3>& mapped, bool& done) {
+    if (!state.vertices.empty()) return;
+    if (!done) map_body(*state.shape, state.nodes, mapped);
+    done = true;
+    state.vertices = mapped;
+  };
+  map(starts_[body], places.start, places.start_mapped);
+  map(ends_[body], places.end, places.end_mapped);
 }
 
 void LazySteps::update(const Step& step) {
@@ -84,9 +105,13 @@ void LazySteps::update(const Step& step) {
 
 // Prepares a body for tests: computes all its bounds if it is refitted, else its cells.
 void LazySteps::bound(std::size_t body, LazyScratch& scratch) {
-  if (starts_[body].from_vertices) return kernels_.bound_all(starts_[body], scratch.arena);
-  find_cells(starts_[body]);
-  find_cells(ends_[body]);
+  if (!starts_[body].from_vertices) {
+    find_cells(starts_[body]);
+    find_cells(ends_[body]);
+    return;
+  }
+  map_vertices_of(body);
+  kernels_.bound_all(starts_[body], scratch.arena);
 }
 
 void LazySteps::find_candidates(Question question) {

@@ -23,7 +23,8 @@ class LazySteps {
             const std::vector<std::shared_ptr<const LatticeTree>>& trees,
             const std::vector<bool>& refitted, const LazyKernels& kernels, ThreadTeam& team);
 
-  /// Where a body is refitted its vertices are the step's if it has any, else mapped here.
+  /// Where a body is refitted its vertices are the step's if it has any; else they are mapped here,
+  /// once it may meet another. Of a step that follows the last one, the start is what the end was.
   void update(const Step& step);
   /// @pre the question is one of steps
   void query(Question question, ContactSet& out);
@@ -34,12 +35,14 @@ class LazySteps {
 
  private:
   struct Places {
-    std::vector<Vec3> start, end;          // vertices
-    std::vector<std::uint32_t> mapped_in;  // per vertex: the step in which it was mapped
+    std::vector<Vec3> start, end;                   // vertices that are mapped here
+    bool start_mapped = false, end_mapped = false;  // all of them
+    std::vector<std::uint32_t> mapped_in;           // per vertex: the step in which it was mapped
     std::span<const Vec3> at_start, at_end;
   };
 
   void begin(std::size_t body, const Step& step);
+  void map_vertices_of(std::size_t body);
   void bound(std::size_t body, LazyScratch& scratch);
   void find_candidates(Question question);
   void map_triangle(std::uint32_t body, std::uint32_t triangle);

@@ -30,7 +30,23 @@ Vec3 in_frame(const LazyState&, const Vec3f& x) { return x.cast<double>(); }
 
 void set_box(std::span<const Vec3> points, LazyState& state) {
   Vec3 lo = points[0], hi = points[0];
-  for (const Vec3& p : points) {
+  // Four points at a time: one by one, each minimum would wait for the one before it.
+  using Four = Eigen::Array<double, 12, 1>;
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const std::size_t whole = points.size() / 4 * 4;
+  if (whole > 0) {
+    Four low = Eigen::Map<const Four>(points[0].data()), high = low;
+    for (std::size_t i = 4; i < whole; i += 4) {
+      const Eigen::Map<const Four> four(points[i].data());
+      low = low.min(four);
+      high = high.max(four);
+    }
+    for (int i = 0; i < 12; i += 3) {
+      lo = lo.cwiseMin(low.segment<3>(i).matrix());
+      hi = hi.cwiseMax(high.segment<3>(i).matrix());
+    }
+  }
+  for (const Vec3& p : points.subspan(whole)) {
     lo = lo.cwiseMin(p);
     hi = hi.cwiseMax(p);
   }
@@ -198,6 +214,15 @@ void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices) {
   forget_frame(state);
   state.vertices = vertices;
   set_box(vertices, state);
+}
+
+void begin_same_frame(LazyState& state, const LazyState& before, std::span<const Vec3> nodes,
+                      std::span<const Vec3> vertices) {
+  forget_frame(state);
+  state.nodes = nodes;
+  state.vertices = vertices;
+  state.box = before.box;
+  state.largest = before.largest;
 }
 
 void place(std::span<LazyState> states) {

@@ -243,6 +243,12 @@ void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes);
 /// The same for a body with given vertices. @pre also from_vertices
 void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices);
 
+/// Begins the frame that `before` has begun, whose nodes and vertices are bit for bit these: the
+/// box is taken from there. @pre `before` is of the same shape and tree, and not the start of a
+/// step
+void begin_same_frame(LazyState& state, const LazyState& before, std::span<const Vec3> nodes,
+                      std::span<const Vec3> vertices);
+
 /// Chooses origins, scale and slacks of all bodies. @pre begin_frame_by_... was called for each
 void place(std::span<LazyState> states);
 

@@ -29,6 +29,9 @@ struct Frame {
 /// between, vertices are not those of the nodes in between: mapping rounds at both ends.
 struct Step {
   Frame start, end;
+  /// Nodes and vertices at the start are, bit for bit, those at the end of the step that the same
+  /// detector was given before: what it computed of them holds. False where that is not certain.
+  bool follows = false;
   std::size_t index() const { return start.index; }
 };
 

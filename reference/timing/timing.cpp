@@ -40,7 +40,7 @@ class Input {
       point_to_frame(index, start_);
     }
     point_to_frame(index + 1, end_);
-    joined_ = {start_.frame, end_.frame};
+    joined_ = {start_.frame, end_.frame, given_end_ == index};
   }
 
   void map() {
@@ -52,9 +52,10 @@ class Input {
     }
   }
 
-  void give(Detector& detector) const {
+  void give(Detector& detector) {
     if (step_) {
       detector.update_step(joined_);
+      given_end_ = joined_.end.index;
     } else {
       detector.update(start_.frame);
     }
@@ -80,6 +81,7 @@ class Input {
   const bool step_, vertices_;  // one that needs no vertices gets none
   MappedFrame start_, end_;
   Step joined_;
+  std::optional<std::size_t> given_end_;  // of the last step that the detector was given
 };
 
 // The phase is marked outside of what the clock takes, which the mark must not lengthen.

@@ -163,10 +163,12 @@ class Receiver : public Diary {
   void update_step(const Step& step) override {
     note(step.start);
     note(step.end);
+    follows.push_back(step.follows);
   }
   void query(Question, ContactSet&) override {}
 
   std::vector<std::size_t> vertices, nodes;
+  std::vector<bool> follows;
 
  private:
   void note(const Frame& frame) {
@@ -192,6 +194,18 @@ TEST_F(Timing, OneThatNeedsNoVerticesIsGivenNone) {
                 std::vector<std::size_t>(given, needs ? shape.mesh.vertices.size() : 0));
       EXPECT_EQ(detector.nodes, std::vector<std::size_t>(given, shape.node_count()));
     }
+}
+
+TEST_F(Timing, StepFollowsWhereItBeginsWithTheEndOfTheLastOne) {
+  const judge::Asked asked = {Question::kImpacts, true, {}};
+  const std::vector<judge::AnswerFingerprint> prints(3, judge::fingerprint_of({}, asked));
+  for (const bool needs : {true, false}) {
+    Receiver detector(needs);
+    for (int pass = 0; pass < 2; ++pass)
+      time_pass(scene_, {0, asked, {0, 1, 1, 0, 1}, &prints}, detector, progress_);
+    EXPECT_THAT(detector.follows, ElementsAre(false, true, false, false, true, false, true, false,
+                                              false, true));
+  }
 }
 
 TEST_F(Timing, OfColdFramesThoseAlone) {

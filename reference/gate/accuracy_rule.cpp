@@ -1,6 +1,7 @@
 #include "reference/gate/accuracy_rule.h"
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "reference/text/json_value.h"
@@ -123,9 +124,16 @@ Reading read_measure(const Rule& rule, const results::Results& results, const re
       return read_stages(rule, row);
     case MeasureKind::kDefects:
       return read_defects(results, row);
-    default:
+    case MeasureKind::kMemory:
       return number(static_cast<double>(row.memory_bytes));
+    case MeasureKind::kOracle:
+    case MeasureKind::kHash:
+    case MeasureKind::kStatus:
+    case MeasureKind::kSpeedup:
+    case MeasureKind::kSlowdown:
+      break;  // read elsewhere
   }
+  throw std::logic_error("a rule on accuracy reads an accuracy number");
 }
 
 // "missed 3 at level triangle", "hover_gap_max 0.002 m"

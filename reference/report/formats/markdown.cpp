@@ -5,11 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "reference/report/pictures/loss_charts.h"
-#include "reference/report/pictures/speed_error_plot.h"
-#include "reference/report/pictures/stability_plot.h"
-#include "reference/report/pictures/tunnelling_plot.h"
-#include "reference/report/tables/family_result.h"
+#include "reference/report/pictures/report_pictures.h"
 #include "reference/report/tables/origin.h"
 #include "reference/report/tables/run_row.h"
 #include "reference/report/tables/scene_choice.h"
@@ -138,17 +134,8 @@ std::string markdown_report(const results::Index& index) {
 
 std::map<std::string, std::string> report_files(const results::Results& results) {
   const results::Index index(results);
-  std::map<std::string, std::string> files = {{"report.md", markdown_report(index)}};
-  const auto add_picture = [&](const std::string& file, std::string picture) {
-    if (!picture.empty()) files[file] = std::move(picture);
-  };
-  add_picture(kSpeedErrorFile, speed_error_picture(index));
-  add_picture(kErrorsFile, errors_picture(results));
-  add_picture(kStagesFile, stages_picture(results));
-  add_picture(kTunnellingFile, tunnelling_plot(tunnelling(index)));
-  const std::vector<FamilyResult> families = family_results(index);
-  for (const results::Scene& scene : results.scenes)
-    if (scene.family) add_picture(stability_plot_file(scene), stability_plot(scene, families));
+  std::map<std::string, std::string> files = report_pictures(index);
+  files["report.md"] = markdown_report(index);
   return files;
 }
 

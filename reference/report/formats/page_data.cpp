@@ -8,9 +8,8 @@
 #include <variant>
 
 #include "core/types/check.h"
+#include "reference/report/pictures/report_pictures.h"
 #include "reference/report/pictures/speed_error_plot.h"
-#include "reference/report/pictures/stability_plot.h"
-#include "reference/report/pictures/tunnelling_plot.h"
 #include "reference/report/tables/between_frames.h"
 #include "reference/report/tables/detector_group.h"
 #include "reference/report/tables/error_spreads.h"
@@ -110,9 +109,8 @@ Blocks pairs_blocks(const results::Results& results) {
   return out;
 }
 
-Json sections_json(const results::Index& index) {
+Json sections_json(const results::Index& index, const Pictures& pictures) {
   Json out = Json::array();
-  const Pictures pictures = {{kTunnellingFile, tunnelling_plot(tunnelling(index))}};
   for (const Section* section : sections())
     if (section->build != nullptr && !section->drawn_on_page)
       add_section(out, *section, section->build(index), pictures);
@@ -150,8 +148,7 @@ Json to_json(const HeatTable& table) {
   return {{"columns", table.columns}, {"rows", std::move(rows)}};
 }
 
-Json hard_json(const results::Index& index, const TitledTable& sums) {
-  const std::vector<FamilyResult> all = family_results(index);
+Json hard_json(const results::Index& index, const TitledTable& sums, const Pictures& pictures) {
   Json families = Json::array();
   for (const WrongFamily& family : wrong_families(index)) {
     Json shown = Json::array();
@@ -167,7 +164,7 @@ Json hard_json(const results::Index& index, const TitledTable& sums) {
                         {"sentence", family.sentence},
                         {"table", to_json(family.table)},
                         {"shown", std::move(shown)},
-                        {"picture", stability_plot(family.scene, all)}});
+                        {"picture", pictures.at(stability_plot_file(family.scene))}});
   }
   return {{"sums", to_json(sums)},
           {"ranges", to_json(range_tables(scale_ranges(index)))},
@@ -387,6 +384,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
   for (const std::string& detector : index.detectors())
     reduce.push_back(results::detector_words(results, detector));
   const results::Machine& machine = results.machine;
+  const Pictures pictures = report_pictures(index);
   Json out = {{"version", results.version},
               {"title", headline.title},
               {"findings", std::move(findings)},
@@ -403,7 +401,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"scene_count", results.scenes.size()},
               {"fastest", headline.fastest},
               {"references", results::kReferences},
-              {"sections", sections_json(index)},
+              {"sections", sections_json(index, pictures)},
               {"levels", levels_json(index, levels)},
               {"result_columns", columns_json(result_columns())},
               {"choices", std::move(words)},
@@ -412,7 +410,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"graded", graded_json(index, choices)},
               {"speed_error", speed_error_json(index, levels)}};
   const TitledTable hard = hard_sums(index);
-  if (!hard.rows.empty()) out["hard"] = hard_json(index, hard);
+  if (!hard.rows.empty()) out["hard"] = hard_json(index, hard, pictures);
   if (paper) out["paper"] = paper_part_json(*paper);
   // Scenes that are motions are shown in full; of families the 3D view needs to know the cases.
   Json scenes = Json::array(), families = Json::array();

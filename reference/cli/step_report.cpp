@@ -116,6 +116,9 @@ void StepReport::print_end(const judge::StepChecker& checker) const {
   else if (checker.largest_motion())
     std::printf("largest turn of a triangle in a step, %s: less than 0.001 degrees\n", kPaths);
   if (!checker.largest_motion()) std::printf("nothing moves from frame to frame\n");
+  std::printf("%s, whose boxes meet in a step, tested exactly, %s\n",
+              counted(checker.element_tests(), "pair of elements", "pairs of elements").c_str(),
+              kPaths);
 }
 
 Json StepReport::end_json(const judge::StepChecker& checker) const {
@@ -134,6 +137,7 @@ Json StepReport::end_json(const judge::StepChecker& checker) const {
           {"first", found_.empty() ? Json(nullptr) : Json(found_.front())},
           {"unseen", unseen_},
           {"starting", starting_},
+          {"element_tests", checker.element_tests()},
           {"largest_motion", std::move(motion)},
           {"largest_turn", std::move(turn)}};
 }

@@ -82,6 +82,9 @@ class StepChecker {
   /// Of all steps checked; none if no vertex moved or no normal turned.
   const std::optional<LargestMotion>& largest_motion() const { return motion_; }
   const std::optional<LargestTurn>& largest_turn() const { return turn_; }
+  /// Pairs of a vertex and a triangle, or of two edges, whose moving boxes meet within a step, of
+  /// all steps checked: each was tested exactly.
+  std::uint64_t element_tests() const { return element_tests_; }
 
  private:
   void measure(const Step& step);
@@ -94,6 +97,7 @@ class StepChecker {
   std::vector<double> mean_edges_;  // per body, metres
   std::optional<LargestMotion> motion_;
   std::optional<LargestTurn> turn_;
+  std::uint64_t element_tests_ = 0;
 };
 
 }  // namespace contactcheck::judge

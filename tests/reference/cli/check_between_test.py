@@ -67,7 +67,7 @@ def test_finds_a_ball_that_passes_a_sheet(tmp_path):
     assert "report." in outcome.out.splitlines()[-1]
     said = [line for line in outcome.out.splitlines() if " of the step" in line or " a step" in line or
             " of 1 step" in line or " step has" in line]
-    assert len(said) == 5 and all(PATHS in line for line in said)
+    assert len(said) == 6 and all(PATHS in line for line in said)
 
 
 def test_page_shows_both_ends_of_the_first_step(tmp_path):
@@ -109,6 +109,15 @@ def test_json_lines_say_it_to_programs(tmp_path):
     assert (between["steps"], between["with_impacts"], between["first"]) == (1, 1, 0)
     assert (between["unseen"], between["starting"], between["allowed"]) == (1, 0, False)
     assert between["largest_motion"]["body"] == "ball"
+
+
+def test_counts_the_pairs_that_it_tested(tmp_path):
+    """All 66 vertices of the ball with the sheet, and its 192 edges with that edge of the sheet in whose box the
+    ball passes."""
+    _, end = told(tmp_path, BALL, "--allow", "self")
+    assert end["between"]["element_tests"] == 66 + 192
+    outcome = check(tmp_path, BALL, "--between", "--allow", "self")
+    assert f"\n258 pairs of elements, whose boxes meet in a step, tested exactly, {PATHS}\n" in outcome.out
 
 
 def test_allowed_impacts_are_listed_and_do_not_count(tmp_path):
@@ -236,7 +245,7 @@ def test_a_body_that_jumps_into_another_is_inside_at_the_end(tmp_path):
 def test_frames_that_do_not_meet_are_clean(tmp_path):
     outcome = check(tmp_path, {"ball": [ball(1), ball(0.5)], "sheet": SHEET}, "--between")
     assert outcome.exit_code == 0, outcome.err
-    assert outcome.out.count(PATHS) == 3
+    assert outcome.out.count(PATHS) == 4
     assert f"no step has a contact that is not allowed, {PATHS}\n" in outcome.out
     assert f"largest turn of a triangle in a step, {PATHS}: less than 0.001 degrees\n" in outcome.out
 

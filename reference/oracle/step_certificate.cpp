@@ -210,6 +210,15 @@ BoxVerdict verdict_of(const std::array<const Aabb*, 2>& a, const std::array<cons
   return verdict;
 }
 
+/// @pre both ascending
+bool have_common(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    if (a[i] == b[j]) return true;
+    ++(a[i] < b[j] ? i : j);
+  }
+  return false;
+}
+
 // --- One pair of bodies
 
 class PairProver {
@@ -313,6 +322,8 @@ class PairProver {
 
   bool separate(const Range& a, const Range& b, const StepPart& part) {
     const std::vector<std::uint32_t> of_a = vertices_of(pair_.a, a), of_b = vertices_of(pair_.b, b);
+    // A vertex is on neither side of itself: so it is of most ranges of one body that are near.
+    if (pair_.a == pair_.b && have_common(of_a, of_b)) return false;
     const std::optional<Vec3> guess = likely_direction(clouds(of_a, of_b, part));
     if (!guess) return false;
     // The shortest numbers that serve.

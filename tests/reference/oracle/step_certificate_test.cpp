@@ -212,6 +212,13 @@ void expect_proofs(const StepScene& scene, Seen& seen) {
       if (contact) {
         ASSERT_EQ(std::holds_alternative<TouchAtStart>(*contact), truth.starting.contains(pair));
         ++(truth.starting.contains(pair) ? seen.starting : seen.later);
+        // Of two bodies it is the first.
+        if (const auto* meet = std::get_if<ElementsMeet>(&*contact); meet != nullptr && a != b) {
+          const auto first = std::ranges::find(truth.steps.first, pair, &FirstImpact::bodies);
+          ASSERT_NE(first, truth.steps.first.end());
+          EXPECT_LE(meet->time.earliest, first->latest) << scene.name << a << " " << b;
+          EXPECT_GE(meet->time.latest, first->earliest) << scene.name << a << " " << b;
+        }
         continue;
       }
       const Replay replay(scene, certifier, pair, *apart);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "reference/text/counted.h"
+
 namespace contactcheck::judge {
 
 void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet& contacts) {
@@ -17,8 +19,8 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
   const auto check_pair = [&](std::uint32_t a, std::uint32_t b) {
     const std::size_t count = scene.bodies.size();
     if (a >= count || b >= count)
-      fail("names body " + std::to_string(std::max(a, b)) + " of " + std::to_string(count) +
-           " bodies");
+      fail("names body " + std::to_string(std::max(a, b)) + " of " +
+           text::counted(count, "body", "bodies"));
     if (a == b) fail("names body \"" + scene.bodies[a].name + "\" in contact with itself");
   };
   const auto check_element = [&](const char* kind, std::uint32_t body, std::uint32_t id,
@@ -55,8 +57,8 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
 
   const auto check_body = [&](std::uint32_t body) {
     if (body >= scene.bodies.size())
-      fail("names body " + std::to_string(body) + " of " + std::to_string(scene.bodies.size()) +
-           " bodies");
+      fail("names body " + std::to_string(body) + " of " +
+           text::counted(scene.bodies.size(), "body", "bodies"));
   };
 
   for (const std::uint32_t body : contacts.self_bodies) check_body(body);

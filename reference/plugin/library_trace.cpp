@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reference/text/counted.h"
 #include "reference/text/id_check.h"
 
 namespace contactcheck::plugin {
@@ -50,7 +51,7 @@ void check_stage(const StageRecord& stage, std::span<const contactcheck_body> bo
   const auto check_bodies = [&](std::uint32_t a, std::uint32_t b) {
     if (std::max(a, b) >= bodies.size())
       fail(name + " names body " + std::to_string(std::max(a, b)) + " of " +
-           std::to_string(bodies.size()) + " bodies");
+           text::counted(bodies.size(), "body", "bodies"));
     if (a == b) fail(name + " names body \"" + bodies[a].name + "\" with itself");
   };
   const auto check_element = [&](std::uint32_t body, std::uint32_t id) {
@@ -136,7 +137,7 @@ StageTrace TraceCollector::checked(std::span<const contactcheck_body> bodies) {
   if (too_many_) fail("trace: gives more than " + std::to_string(kMostItems) + " stages");
   if (bodies_of_owners_ > bodies.size())
     fail("trace: owners() names body " + std::to_string(bodies_of_owners_ - 1) + " of " +
-         std::to_string(bodies.size()) + " bodies");
+         text::counted(bodies.size(), "body", "bodies"));
   check_shape();
   bool owners = false;
   for (std::size_t i = 0; i < frame_.stages.size(); ++i) {

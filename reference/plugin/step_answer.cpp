@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/types/check.h"
+#include "reference/text/counted.h"
 
 namespace contactcheck::plugin {
 
@@ -15,7 +16,7 @@ std::vector<std::uint32_t> StepAnswerReader::numbers_of(const std::string& from,
                                                         Edge edge) {
   if (body >= bodies_.size())
     throw InputError(from + " names body " + std::to_string(body) + " of " +
-                     std::to_string(bodies_.size()) + " bodies");
+                     text::counted(bodies_.size(), "body", "bodies"));
   const BodyShape& shape = *bodies_[body].shape;
   EdgeNumbers& known = known_[&shape];
   if (known.empty()) {

@@ -16,6 +16,7 @@
 #include "reference/python/arrays.h"
 #include "reference/python/judge.h"
 #include "reference/results/results_json.h"
+#include "reference/text/counted.h"
 
 namespace contactcheck::python {
 namespace {
@@ -182,8 +183,8 @@ class PyDetector {
   /// Leaves in `positions` those that were held before. `name`: of the argument.
   void take(std::vector<std::vector<Vec3>>& positions, const std::string& name, Held& held) {
     if (positions.size() != bodies_.size())
-      throw InputError(name + ": " + std::to_string(positions.size()) + " arrays for " +
-                       std::to_string(bodies_.size()) + " bodies");
+      throw InputError(name + ": " + text::counted(positions.size(), "array") + " for " +
+                       text::counted(bodies_.size(), "body", "bodies"));
     held.nodes.resize(bodies_.size());
     held.vertices.resize(bodies_.size());
     held.frame.bodies.resize(bodies_.size());

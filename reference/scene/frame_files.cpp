@@ -438,7 +438,8 @@ void sort_frames(BodyFiles& body) {
     if (step && *to - *from != *step)
       throw InputError("the numbers of " + text::in_quotes(a.before + "*" + a.after) + " go from " +
                        std::to_string(*from) + " to " + std::to_string(*to) +
-                       "; they must go on as they begin");
+                       ", and before in steps of " + std::to_string(*step) +
+                       "; all steps must be alike");
     step = *to - *from;
   }
 }

@@ -183,7 +183,7 @@ def test_json_lines_say_it_to_programs(folder):
 
 
 @pytest.mark.parametrize(("files", "sentence"), [
-    (["moving_8.obj", "moving_10.obj", "moving_11.obj"], "go from 10 to 11; they must go on as they begin"),
+    (["moving_8.obj", "moving_10.obj", "moving_11.obj"], "go from 10 to 11, and before in steps of 2; all steps must be alike"),
     (["gone.pc2"], "is a point cache; the mesh that it moves is named before it"),
     (["gone.obj"], "gone.obj")], ids=["frames_with_a_gap", "cache_without_mesh", "missing_file"])
 def test_refuses_what_it_cannot_read(folder, files, sentence):

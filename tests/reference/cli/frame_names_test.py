@@ -98,7 +98,7 @@ REFUSED = {
         ["cloth_0.0.obj", "cloth_0.5.obj", "cloth_1.0.obj", "cloth_1.5.obj"], "--frames 'cloth_{frame}.obj'"),
     "hyphens_and_none": (["cloth-1.obj", "cloth0.obj", "cloth1.obj"], "with a hyphen or with a sign"),
     "one_number_twice": (["cloth_1.obj", "cloth_01.obj", "cloth_2.obj"], "are one frame of one body"),
-    "a_gap": (numbered("cloth_{}.obj", 8, 10, 11), "go from 10 to 11; they must go on as they begin"),
+    "a_gap": (numbered("cloth_{}.obj", 8, 10, 11), "go from 10 to 11, and before in steps of 2; all steps must be alike"),
     "no_common_number": (
         [*numbered("a_{}.obj", 0, 1), *numbered("b_{}.obj", 5, 6)], "no frame is one of all bodies"),
 }

@@ -145,7 +145,7 @@ BAD = [
     (lambda: contactcheck.Detector().prepare([3]), "bodies[0]: a Lattice or a pair (V, F) wanted, got int"),
     (lambda: contactcheck.Detector().prepare([(V, F), (V, F[:, :2])]), "F of bodies[1] has shape (2, 2)"),
     (lambda: contactcheck.Detector().prepare([(V, F)], ["faces"]), 'no question is called "faces"'),
-    (lambda: prepared().update([V]), "positions: 1 arrays for 2 bodies"),
+    (lambda: prepared().update([V]), "positions: 1 array for 2 bodies"),
     (lambda: prepared().update([V, V[:3]]), 'positions[1] has 3 rows; "bodies[1]" has 6 vertices'),
     (lambda: prepared().update([V, with_value(np.nan)]), "positions[1][1, 2] is nan"),
     (lambda: prepared().query("triangles"), "update() comes before query()"),

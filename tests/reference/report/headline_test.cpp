@@ -40,7 +40,7 @@ std::string sentence_about(const Results& results, const std::string& topic) {
 
 TEST(Headline, TitleSaysHowManyWereRight) {
   EXPECT_EQ(headline_of(run_of({"a", "b"}, {row("a", "x", 0, 0), row("a", "y", 1, 0)})).title,
-            "1 of 2 detectors have no missed and no spurious contacts in 2 scenes");
+            "1 of 2 detectors has no missed and no spurious contacts in 2 scenes");
   EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 0)})).title,
             "x has no missed and no spurious contacts in 1 scene");
   EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 2)})).title,
@@ -78,7 +78,7 @@ TEST(Headline, NothingToFindAndSomethingReportedIsWrong) {
   Results results = run_of({"a"}, {apart("a", "x", Level::kBody), apart("a", "y", Level::kBody)});
   results.runs[1].levels[Level::kBody] = {0, 3, 0, 0, 3};
   EXPECT_EQ(headline_of(results).title,
-            "1 of 2 detectors have no missed and no spurious contacts in 1 scene");
+            "1 of 2 detectors has no missed and no spurious contacts in 1 scene");
 }
 
 // Nor was one that is not built, refused the input, or claims none of the levels.
@@ -123,7 +123,7 @@ TEST(Headline, CountsTheDetectorsThatEndedInAnError) {
   results.runs[1].levels.clear();
   EXPECT_EQ(
       headline_of(results).title,
-      "1 of 2 detectors have no missed and no spurious contacts in 1 scene; 1 ended in status "
+      "1 of 2 detectors has no missed and no spurious contacts in 1 scene; 1 ended in status "
       "error");
   results.runs.erase(results.runs.begin());
   EXPECT_EQ(headline_of(results).title, "y ended in status error in 1 scene");

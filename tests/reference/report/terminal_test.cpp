@@ -27,7 +27,7 @@ std::string terminal_of(const Json& results, bool color) {
 TEST(Terminal, IsThisText) {
   EXPECT_EQ(
       terminal_of(sample_results(), false),
-      R"(1 of 3 detectors have no missed and no spurious contacts in 1 scene; 1 ended in status error
+      R"(1 of 3 detectors has no missed and no spurious contacts in 1 scene; 1 ended in status error
 
 hello  Two | one bodies meet
   2 bodies, 140 triangles, 60 frames, 13 with contact

@@ -104,11 +104,11 @@ std::string title_of(const Results& results, const std::vector<Verdict>& all) {
     return fmt::format("{} ended in status error in {}",
                        failed == 1 ? all[0].detector : fmt::format("All {} detectors", failed),
                        places);
-  const std::string who = all.size() == 1 ? all[0].detector + " has"
-                          : right == 0 || right == all.size()
-                              ? fmt::format("All {} detectors have", all.size())
-                              : fmt::format("{} of {} detectors {}", right, all.size(),
-                                            right == 1 ? "has" : "have");
+  const std::string who =
+      all.size() == 1 ? all[0].detector + " has"
+      : right == 0 || right == all.size()
+          ? fmt::format("All {} detectors have", all.size())
+          : fmt::format("{} of {} detectors {}", right, all.size(), right == 1 ? "has" : "have");
   return fmt::format(
       "{} {} in {}{}", who,
       right > 0    ? "no missed and no spurious contacts"

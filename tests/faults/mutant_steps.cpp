@@ -93,9 +93,8 @@ void check_detectors_of_steps(MutantFindings& out) {
     for (std::size_t i = 0; i < 2; ++i) {
       const StepScene scene = draw_step_scene(random, family);
       const oracle::StepTruth truth = truth_of(scene);
-      for (const char* name :
-           {"swept-aabb", "full-refit", "ffd-lazy", "ffd-lazy:bounds=nodes",
-            "ffd-lazy:bounds=nodes,threads=2"})
+      for (const char* name : {"swept-aabb", "full-refit", "ffd-lazy", "ffd-lazy:bounds=nodes",
+                               "ffd-lazy:bounds=nodes,threads=2"})
         try {
           check_detector(name, scene, truth, i, out);
         } catch (const std::exception& e) {

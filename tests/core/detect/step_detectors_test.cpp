@@ -500,7 +500,8 @@ TEST(StepDetectors, StepsThatFollowGiveTheAnswersOfFreshDetectors) {
           const StepScene step = moments.step(kFrames[i], kFrames[i + 1]);
           const bool own = i % own_each == 0;
           const ContactSet got = answer_in_a_row(*detector, step, i > 0, own),
-                           fresh = answer_in_a_row(*prepared(name, moments.bodies), step, false, own);
+                           fresh =
+                               answer_in_a_row(*prepared(name, moments.bodies), step, false, own);
           ASSERT_EQ(difference(got, fresh), "") << name << " step " << i;
           ASSERT_EQ(times(got), times(fresh)) << name << " step " << i;
           ++(got.impacts.empty() ? none : contacts);

@@ -121,10 +121,9 @@ TEST(Headline, CountsTheDetectorsThatEndedInAnError) {
   Results results = run_of({"a"}, {row("a", "x", 0, 0), row("a", "y", 0, 0)});
   results.runs[1].status = results::Status::kError;
   results.runs[1].levels.clear();
-  EXPECT_EQ(
-      headline_of(results).title,
-      "1 of 2 detectors has no missed and no spurious contacts in 1 scene; 1 ended in status "
-      "error");
+  EXPECT_EQ(headline_of(results).title,
+            "1 of 2 detectors has no missed and no spurious contacts in 1 scene; 1 ended in status "
+            "error");
   results.runs.erase(results.runs.begin());
   EXPECT_EQ(headline_of(results).title, "y ended in status error in 1 scene");
 }

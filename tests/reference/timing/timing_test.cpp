@@ -203,8 +203,8 @@ TEST_F(Timing, StepFollowsWhereItBeginsWithTheEndOfTheLastOne) {
     Receiver detector(needs);
     for (int pass = 0; pass < 2; ++pass)
       time_pass(scene_, {0, asked, {0, 1, 1, 0, 1}, &prints}, detector, progress_);
-    EXPECT_THAT(detector.follows, ElementsAre(false, true, false, false, true, false, true, false,
-                                              false, true));
+    EXPECT_THAT(detector.follows,
+                ElementsAre(false, true, false, false, true, false, true, false, false, true));
   }
 }
 

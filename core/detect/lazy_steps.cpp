@@ -59,14 +59,16 @@ void LazySteps::begin(std::size_t body, const Step& step) {
   begin_one(end, step.end.bodies[body], places.end, places.at_end);
 }
 
-// Of a refitted body, unless they are given.
+// Maps the vertices of a refitted body that are not given, and takes their boxes, which are
+// tighter.
 void LazySteps::map_vertices_of(std::size_t body) {
   Places& places = places_[body];
   const auto map = [](LazyState& state, std::vector<Vec3>& mapped, bool& done) {
-    if (!state.vertices.empty()) return;
+    if (!state.from_vertices || !state.vertices.empty()) return;
     if (!done) map_body(*state.shape, state.nodes, mapped);
     done = true;
     state.vertices = mapped;
+    tighten_box(state);
   };
   map(starts_[body], places.start, places.start_mapped);
   map(ends_[body], places.end, places.end_mapped);
@@ -98,35 +100,48 @@ void LazySteps::update(const Step& step) {
   contacts_.begin(std::move(start), std::move(end));
   pairs_.clear();
   find_candidate_bodies(boxes, pairs_);
+  erase_pairs_apart();
+  bounded_.assign(starts_.size(), 0);
+}
+
+void LazySteps::erase_pairs_apart() {
   std::erase_if(pairs_,
                 [&](const BodyPair& pair) { return !may_meet(starts_[pair.a], starts_[pair.b]); });
-  bounded_.assign(starts_.size(), 0);
 }
 
 // Prepares a body for tests: computes all its bounds if it is refitted, else its cells.
 void LazySteps::bound(std::size_t body, LazyScratch& scratch) {
-  if (!starts_[body].from_vertices) {
-    find_cells(starts_[body]);
-    find_cells(ends_[body]);
-    return;
+  if (starts_[body].from_vertices) return kernels_.bound_all(starts_[body], scratch.arena);
+  find_cells(starts_[body]);
+  find_cells(ends_[body]);
+}
+
+// All for contact of a body with itself, else those that may meet another.
+std::vector<std::uint32_t> LazySteps::bodies_for(Question question) const {
+  std::vector<std::uint32_t> out;
+  if (question == Question::kSelfImpacts) {
+    for (std::uint32_t b = 0; b < starts_.size(); ++b) out.push_back(b);
+    return out;
   }
-  map_vertices_of(body);
-  kernels_.bound_all(starts_[body], scratch.arena);
+  for (const BodyPair& pair : pairs_)
+    for (const std::uint32_t body : pair.ids()) out.push_back(body);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 void LazySteps::find_candidates(Question question) {
-  std::vector<std::size_t> to_bound;
-  const auto want = [&](std::size_t body) {
-    if (bounded_[body] == 0) to_bound.push_back(body);
-    bounded_[body] = 1;
-  };
   const bool own = question == Question::kSelfImpacts;
-  for (std::size_t b = 0; own && b < starts_.size(); ++b) want(b);
-  for (const BodyPair& pair : pairs_)
-    for (const std::uint32_t body : pair.ids())
-      if (!own) want(body);
-  team_.for_each(to_bound.size(),
-                 [&](std::size_t i, LazyScratch& scratch) { bound(to_bound[i], scratch); });
+  std::vector<std::uint32_t> bodies = bodies_for(question);
+  team_.for_each(bodies.size(), [&](std::size_t i, LazyScratch&) { map_vertices_of(bodies[i]); });
+  if (!own) {
+    erase_pairs_apart();
+    bodies = bodies_for(question);
+  }
+  std::erase_if(bodies, [&](std::uint32_t body) { return bounded_[body] != 0; });
+  for (const std::uint32_t body : bodies) bounded_[body] = 1;
+  team_.for_each(bodies.size(),
+                 [&](std::size_t i, LazyScratch& scratch) { bound(bodies[i], scratch); });
   candidates_.clear();
   if (!own) return tasks_.run(starts_, pairs_, false, candidates_);
   for (std::uint32_t b = 0; b < starts_.size(); ++b) {

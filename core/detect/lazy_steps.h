@@ -43,6 +43,8 @@ class LazySteps {
 
   void begin(std::size_t body, const Step& step);
   void map_vertices_of(std::size_t body);
+  void erase_pairs_apart();
+  std::vector<std::uint32_t> bodies_for(Question question) const;
   void bound(std::size_t body, LazyScratch& scratch);
   void find_candidates(Question question);
   void map_triangle(std::uint32_t body, std::uint32_t triangle);

@@ -28,7 +28,7 @@ double half_width(const Aabb& box) {
 Vec3 in_frame(const LazyState& state, const Vec3& x) { return (x - state.origin) * state.scale; }
 Vec3 in_frame(const LazyState&, const Vec3f& x) { return x.cast<double>(); }
 
-void set_box(std::span<const Vec3> points, LazyState& state) {
+Aabb box_of(std::span<const Vec3> points) {
   Vec3 lo = points[0], hi = points[0];
   // Four points at a time: one by one, each minimum would wait for the one before it.
   using Four = Eigen::Array<double, 12, 1>;
@@ -50,8 +50,12 @@ void set_box(std::span<const Vec3> points, LazyState& state) {
     lo = lo.cwiseMin(p);
     hi = hi.cwiseMax(p);
   }
-  state.largest = std::max(lo.cwiseAbs().maxCoeff(), hi.cwiseAbs().maxCoeff());
-  state.box = {lo, hi};
+  return {lo, hi};
+}
+
+void set_box(std::span<const Vec3> points, LazyState& state) {
+  state.box = box_of(points);
+  state.largest = std::max(state.box.lo.cwiseAbs().maxCoeff(), state.box.hi.cwiseAbs().maxCoeff());
 }
 
 bool box_holds(const LaneBoxes& box, std::uint32_t lane, const Vec3& p) {
@@ -224,6 +228,8 @@ void begin_same_frame(LazyState& state, const LazyState& before, std::span<const
   state.box = before.box;
   state.largest = before.largest;
 }
+
+void tighten_box(LazyState& state) { state.box = box_of(state.vertices); }
 
 void place(std::span<LazyState> states) {
   std::vector<Aabb> boxes;

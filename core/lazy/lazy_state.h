@@ -249,6 +249,10 @@ void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices);
 void begin_same_frame(LazyState& state, const LazyState& before, std::span<const Vec3> nodes,
                       std::span<const Vec3> vertices);
 
+/// Makes the box that of the vertices instead of the nodes. Once the bodies are placed.
+/// @pre from_vertices, and `vertices` are set
+void tighten_box(LazyState& state);
+
 /// Chooses origins, scale and slacks of all bodies. @pre begin_frame_by_... was called for each
 void place(std::span<LazyState> states);
 

@@ -31,7 +31,7 @@ struct StageRecord {
     kLabelCells,  ///< triangle pairs whose labels (Embedding) include these cell pairs
     kOwnerCells,  ///< triangle pairs whose owner cells are these cell pairs; see `owner`
     kTriangles,   ///< these triangle pairs
-    // Of these body pairs, any active cell of one body with any active cell of the other:
+    // All pairs of active cells, one of each body, of these body pairs:
     kActiveLabelCells,  ///< triangle pairs that both have an active label
     kActiveOwnerCells   ///< triangle pairs whose owner cells are both active
   };

@@ -11,7 +11,7 @@ namespace contactcheck {
 /// What a detector answers to an ImpactQuery.
 struct ReportedImpact {
   bool contact = false;
-  /// Of the first contact, in [0, 1]; none: it reports no times.
+  /// The time of the first contact, in [0, 1]; none: the detector reports no times.
   std::optional<double> time = std::nullopt;
   /// Metres: elements that come as near as this are contact to it in this query. None: as declared.
   std::optional<double> tolerance = std::nullopt;

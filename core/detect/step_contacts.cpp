@@ -111,7 +111,7 @@ void StepContacts::enter(std::uint32_t body_a, std::uint32_t body_b, ContactSet&
   flush(out);
   entered_ = true;
   pair_ = {body_a, body_b};
-  // Of contact of a body with itself nobody asks the time.
+  // The time of contact of a body with itself is never asked for.
   const auto before = first_.find({body_a, body_b});
   until_ = body_a == body_b ? -1.0 : before == first_.end() ? kNever : before->second;
   at_start_.begin(*bodies_[body_a]->shape, start_[body_a], *bodies_[body_b]->shape, start_[body_b]);

@@ -56,7 +56,7 @@ class StepContacts {
   struct Elements {
     std::shared_ptr<const BodyShape> shape;
     MeshEdges edges;
-    /// Of each triangle: which of its corners and sides (bit i, bit 3 + i) it owns.
+    /// Which corners (bit i) and sides (bit 3 + i) each triangle owns.
     std::vector<std::uint8_t> owned;
     /// The triangles at vertex v: vertex_triangles[vertex_begin[v]] up to vertex_begin[v + 1];
     /// those of edges likewise.

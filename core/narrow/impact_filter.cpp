@@ -127,7 +127,7 @@ class Filter {
                    bound_or_nothing(kArea * Precision<Real>::kError * (x * y))};
   }
 
-  /// Of `contact`: at one time within a part of the step, which may be wide.
+  /// The interval of a `contact` contains one root of f, its time, and may be wide.
   FilteredImpact decide() {
     if (!usable_) return {};
     direction_ = {0, 0, 0};

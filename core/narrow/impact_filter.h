@@ -13,8 +13,8 @@ enum class FilterVerdict : std::uint8_t { apart, contact, undecided };
 
 struct FilteredImpact {
   FilterVerdict verdict = FilterVerdict::undecided;
-  /// Of `contact`: the first time lies within, and the width is at most kImpactTimeWidth. (Elements
-  /// in contact at t = 0 are always `undecided`.)
+  /// The interval of the first time of a `contact`, at most kImpactTimeWidth wide unless it lies
+  /// after `until`. (Elements in contact at t = 0 are always `undecided`.)
   double earliest = 0, latest = 0;
 };
 

@@ -15,7 +15,7 @@ using Edge = std::array<std::uint32_t, 2>;
 
 /// An edge's number is its place in `edges`. @pre at most kMostMeshTriangles, so fewer than 2^32
 struct MeshEdges {
-  /// Of a side whose two corners are one vertex.
+  /// The number of a side whose two corners are one vertex.
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   std::vector<Edge> edges;                                ///< ascending

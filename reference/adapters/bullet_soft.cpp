@@ -430,7 +430,7 @@ constexpr int kSampleNodes = 20000;
 
 using Members = std::vector<std::vector<std::uint32_t>>;  // nodes of each cluster
 
-/// Of the clusters of a sample of the nodes.
+/// The centres of the clusters of a sample of the nodes.
 std::vector<btVector3> centres_of_sample(const btSoftBody& body, int k) {
   const int count = body.m_nodes.size();
   const int stride = (count + kSampleNodes - 1) / kSampleNodes;

@@ -23,7 +23,7 @@ std::string detector_sheet(const DetectorInfo& info, const DetectorSpec& spec, s
 std::string plugin_sheet(const plugin::Plugin& plugin, const std::vector<OptionInfo>& options,
                          const DetectorSpec& spec, std::size_t width);
 
-/// Of a detector of queries of moving elements.
+/// The same for a detector of queries of moving elements.
 std::string impact_sheet(const ImpactDetectorInfo& info, const DetectorSpec& spec,
                          std::size_t width);
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kWidth = 100, kNarrowest = 60, kTextColumn = 29;  // characters
 
-// Of a terminal; 0 for files and pipes.
+// The width of the terminal, at least kNarrowest; 0 for files and pipes.
 std::size_t terminal_width() {
   winsize size = {};
   if (isatty(STDOUT_FILENO) == 0 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return 0;
@@ -77,7 +77,7 @@ std::string sheet_of(const DetectorSpec& spec, const OwnDetectors& own) {
                          : impact_sheet(*impacts, spec, sheet_width());
 }
 
-// Of frames, or of queries alone.
+// A detector of frames, or only of queries.
 DetectorSpec parse_any(const DetectorCatalog& catalog, const std::string& name) {
   const std::string id = name.substr(0, name.find(':'));
   const bool queries_alone = catalog.find(id) == nullptr && catalog.find_impact(id) != nullptr;

@@ -57,7 +57,7 @@ std::uint64_t hash_of(const std::vector<Record>& records) {
   return hash.digest();
 }
 
-// Of contacts, only the number is compared: see is_other_count().
+// Contacts are compared only by their number: see is_other_count().
 std::uint64_t hash_of(const std::vector<PieceContact>&) { return 0; }
 std::uint64_t hash_of(const std::vector<VertexContact>&) { return 0; }
 

@@ -67,7 +67,7 @@ class FrameChecker {
   /// std::runtime_error if detector and oracle disagree, which is an error of contactcheck
   std::optional<BadFrame> check(std::size_t frame);
 
-  /// Of the last frame checked.
+  /// The contacts of the last frame checked.
   const FrameContacts& contacts() const { return contacts_; }
   const OpenBodies& open() const { return open_; }
 

@@ -64,7 +64,7 @@ Vec3 common_point(const std::array<Vec3, 4>& ends) {
   return ends[0] + size * place;
 }
 
-// Of magnitudes whose squares would leave the range of doubles, too. Zero if degenerate.
+// Right also where squares of lengths would leave the range of doubles. Zero if degenerate.
 Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
   const double scale_u = u.cwiseAbs().maxCoeff(), scale_v = v.cwiseAbs().maxCoeff();

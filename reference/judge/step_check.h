@@ -42,7 +42,7 @@ struct ElementImpact {
 struct StepContact {
   BodyPair bodies;  ///< equal: with itself
   EndState start = EndState::kApart, end = EndState::kApart;
-  /// Of the elements that are apart at the start those that meet first; none if no such meet.
+  /// The first to meet of the elements that are apart at the start; none if no such meet.
   std::optional<ElementImpact> first;
   /// Pairs of elements that are apart at the start and meet, and those of them that are apart at
   /// the end.
@@ -79,7 +79,7 @@ class StepChecker {
   std::vector<StepContact> check(std::size_t step, const FrameContacts& at_start,
                                  const FrameContacts& at_end);
 
-  /// Of all steps checked; none if no vertex moved or no normal turned.
+  /// The largest of all steps checked; none if no vertex moved or no normal turned.
   const std::optional<LargestMotion>& largest_motion() const { return motion_; }
   const std::optional<LargestTurn>& largest_turn() const { return turn_; }
   /// Pairs of a vertex and a triangle, or of two edges, whose moving boxes meet within a step, of

@@ -63,7 +63,7 @@ Form operator*(const Form& a, const Form& b) {
   return product;
 }
 
-/// Of this sign throughout, if that is strict; else of this sign or zero.
+/// Whether all coefficients, and so the form throughout, have this sign (or are 0, if not strict).
 bool has_sign(const Form& form, int sign, bool strict) {
   return std::all_of(form.c.begin(), form.c.end(), [&](const mpz_class& c) {
     return sgn(c) == sign || (!strict && sgn(c) == 0);

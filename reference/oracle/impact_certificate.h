@@ -63,7 +63,7 @@ struct Meeting {
 
 struct ImpactCertificate {
   std::vector<ApartPiece> apart;  ///< from t = 0, ascending; to t = 1 without contact
-  /// Of a contact, at most kImpactTimeWidth after the last piece.
+  /// The proof of a contact, which is at most kImpactTimeWidth after the last piece.
   std::variant<std::monostate, Crossing, Meeting> contact;
 };
 

@@ -180,7 +180,7 @@ void offer_foot(const Vector& p, const Vector& a, const Vector& b, ClosestPoints
       {std::move(direction), {dot(to_point, to_point) * squared - along * along, squared}, false});
 }
 
-/// Of two planes or lines with this common normal.
+/// The closest points of two planes or lines with this common normal.
 Closest along_normal(Vector normal, const mpz_class& squared, const Vector& between) {
   const mpz_class height = dot(normal, between);
   if (height == 0) return {};
@@ -236,7 +236,7 @@ Closest closest_of(ImpactKind kind, const Points& points) {
   return std::move(closest).best();
 }
 
-/// Of each of the four points, along a direction.
+/// The places of the four points along a direction.
 using Extents = std::array<mpz_class, 4>;
 
 Extents extents(const Vector& direction, const Points& points) {

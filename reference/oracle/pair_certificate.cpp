@@ -265,7 +265,7 @@ std::optional<Plane> plane_across(const Vec3& normal, const RationalTriangle& p,
   return Plane{{normal.x(), normal.y(), normal.z()}, offset_between(low, high)};
 }
 
-// Of two disjoint closed convex sets, with nearest points x and y: no point of the first lies
+// Let x and y be nearest points of two disjoint closed convex sets. No point of the first lies
 // further along y - x than x, or moving x towards it would come nearer to y; likewise none of the
 // second lies less far than y. So the plane through x across y - x, which is not 0, separates
 // strictly whatever the two are: faces, segments or points.

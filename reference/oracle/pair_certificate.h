@@ -44,16 +44,16 @@ std::optional<Plane> separating_plane(const TriangleCorners& p, const TriangleCo
 /// a double.
 std::array<Vec3, 2> nearest_points_rounded(const TriangleCorners& p, const TriangleCorners& q);
 
-/// Of two triangles of one mesh, the corners they share first in both: a common point off the hull
-/// of these. Nothing when there is none. @pre 1 or 2 are shared, and stand at the same places
+/// A common point of two triangles of one mesh, off the hull of the corners they share, which come
+/// first in both. Nothing when there is none. @pre 1 or 2 are shared, and stand at the same places
 std::optional<Witness> further_point(const TriangleCorners& p, const TriangleCorners& q,
                                      std::uint32_t shared);
-/// Of two triangles that share one corner, the first of both, and not both segments: a plane
-/// through it with p on one closed side and q on the other, and all corners of one of them, but the
-/// shared one, off it. Then that corner is all they share. Nothing when they share more.
+/// A plane through the one corner that two triangles share, the first of both: p is on one closed
+/// side, q on the other, and the two other corners of p, or of q, are off it. Then that corner is
+/// all they share. Nothing when they share more. @pre not both are segments
 std::optional<Plane> plane_through_corner(const TriangleCorners& p, const TriangleCorners& q);
-/// Of two that share an edge, or that are both segments: do they share its hull alone? A matter of
-/// few products, which a checker does itself.
+/// Whether two triangles share only the hull of the corners they share. A checker does the few
+/// products itself. @pre they share an edge, or both are segments
 bool share_hull_alone(const TriangleCorners& p, const TriangleCorners& q, std::uint32_t shared);
 
 }  // namespace contactcheck::oracle::certify

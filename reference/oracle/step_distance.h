@@ -17,9 +17,9 @@ namespace contactcheck::oracle {
 
 struct StepNearness {
   NearVerdict verdict = NearVerdict::kSpurious;
-  /// Of elements that are near: their smallest distance within the step in metres, and as a share
-  /// of their distance at its start; both rounded upwards. Of two triangles the nearest elements,
-  /// of two bodies the first that are found. 0 unless near.
+  /// The smallest distance of near elements within the step, in metres and as a share of their
+  /// distance at its start; both rounded upwards. For two triangles it is that of the nearest
+  /// elements, for two bodies that of the first near triangles found. 0 unless near.
   double distance = 0, of_start = 0;
 };
 

@@ -224,7 +224,7 @@ StepTruth StepOracle::judge(const Step& step, const std::vector<ElementPair>& at
         touching.push_back(bodies);
     for (std::uint32_t a = 0; a < count; ++a)
       for (std::uint32_t b = a + 1; b < count; ++b) impl_->judge_pair(a, b, truth);
-    // Of two bodies that touch at the start nothing is earlier.
+    // Bodies that touch at the start have their first contact there.
     std::erase_if(truth.first, [&](const FirstImpact& first) {
       return std::binary_search(touching.begin(), touching.end(), first.bodies);
     });

@@ -83,7 +83,7 @@ void read_self_answer(const std::string& from, ContactSet& answer);
 /// What is claimed may not depend on the bodies: a margin and a scale alone may be other after
 /// prepare. @throws InputError: `from` and the key that has changed
 void require_same_claims(const std::string& from, const Semantics& before, const Semantics& now);
-/// Of queries the tolerance alone may depend on options.
+/// Only the tolerance of queries may depend on options.
 void require_same_claims(const std::string& from, const ImpactClaims& before,
                          const ImpactClaims& now);
 [[noreturn]] void refuse_change(const std::string& from, const std::string& key);

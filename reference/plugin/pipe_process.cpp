@@ -126,7 +126,7 @@ std::string for_shell(const std::string& command) {
   return the_shells || has_operators(command) ? command : "exec " + command;
 }
 
-// Of Python: the last line `File "mine.py", line 7, in update`.
+// The last line `File "mine.py", line 7, in update` of a Python traceback.
 std::string traceback_place(const std::string& text) {
   const std::size_t found = text.rfind("\n  File \"");
   return found == std::string::npos ? "" : text::printable_line(text.substr(found));

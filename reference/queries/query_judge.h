@@ -26,7 +26,7 @@ struct ImpactScore {
   std::optional<std::size_t> first_missed, first_spurious;  ///< lines of the file
 };
 
-/// Of times of contact, over hits with a time; fractions of the step. Early: true time less
+/// Errors of times of contact, over hits with a time; fractions of the step. Early: true time less
 /// reported time, late the other way round, each at least 0.
 struct TimeErrors {
   std::uint64_t timed = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLeastDecade = -12, kLargestDecade = 5;
 
-/// Of one detector and decade, over all files.
+/// One detector in one decade, over all files.
 struct Sum {
   std::uint64_t timed = 0, answered = 0;
   double early = 0, late = 0, micros = 0;

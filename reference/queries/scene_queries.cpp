@@ -127,7 +127,7 @@ class Reservoir {
       chosen_.emplace_back(number, query);
       return;
     }
-    // Of a 64-bit number modulo fewer than 2^40 queries: biased by less than 2^-24.
+    // A 64-bit number modulo fewer than 2^40 queries is biased by less than 2^-24.
     const std::uint64_t place = random_.bits() % seen_;
     if (place < *most_) chosen_[place] = {number, query};
   }

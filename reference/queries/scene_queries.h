@@ -23,7 +23,7 @@ struct QuerySample {
   bool certificates = false;        ///< proofs of the truth, for check.py
 };
 
-/// Of one kind, over all steps.
+/// The queries of one kind, over all steps.
 struct ExportedQueries {
   std::size_t found = 0, written = 0, contacts = 0, starts_in_contact = 0;
   std::size_t proved = 0;  ///< with certificates: queries that have one

@@ -12,8 +12,8 @@
 namespace contactcheck::reduce {
 namespace {
 
-// Of a cell whose corner c is at the high end of x, y, z where bit 0, 1, 2 of c is set, which is
-// also the order of nodes in make_node_shape.
+// The faces of a cell. Its corner c is at the high end of x, y, z where bit 0, 1, 2 of c is set,
+// which is also the order of nodes in make_node_shape.
 constexpr Triangle kFaceTriangles[] = {{0, 1, 2}, {3, 2, 1}, {4, 5, 6}, {7, 6, 5},
                                        {0, 1, 4}, {5, 4, 1}, {2, 3, 6}, {7, 6, 3},
                                        {0, 2, 4}, {6, 4, 2}, {1, 3, 5}, {7, 5, 3}};

@@ -35,8 +35,8 @@ std::vector<std::pair<std::string, std::string>> members_of(const Machine& machi
 struct NearReports {
   std::uint64_t near = 0;
   std::uint64_t undecided = 0;  ///< those of which the oracle does not say whether they are near
-  /// Of the near ones the largest of the smallest distances within the step, metres, and the
-  /// largest as a share of the distance at its start. A cap on tolerances limits these.
+  /// The largest of the near ones' smallest distances within the step, in metres, and the largest
+  /// as a share of the distance at its start. A cap on tolerances limits these.
   double near_max = 0.0, near_of_start_max = 0.0;
 };
 

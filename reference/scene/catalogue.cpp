@@ -88,7 +88,7 @@ std::optional<fs::path> file_of_id(const fs::path& folder, const std::string& id
   return file;
 }
 
-// Of scenes, hard cases and families over scales.
+// The folders of scenes, hard cases and families over scales.
 std::vector<fs::path> scene_folders(const fs::path& fixtures) {
   return {fixtures / "scenes", fixtures / "hard" / "families", fixtures / "scales"};
 }

@@ -21,7 +21,7 @@ inline constexpr std::array<const char*, 8> kHappenings = {"apart", "near-miss",
                                                            "deep",  "pile",      "nested", "pass"};
 inline const char* name_of(Happening what) { return kHappenings[static_cast<std::size_t>(what)]; }
 
-/// Of scenes that are judged between frames. In these, speed is drawn log-uniform.
+/// Rules for scenes that are judged between frames. In these, speed is drawn log-uniform.
 struct DrawnSteps {
   /// Largest triangles of a scene times speed. Elements whose boxes over a step meet grow with its
   /// square.

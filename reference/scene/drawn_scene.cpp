@@ -179,7 +179,7 @@ class Drawing {
   std::size_t begin() const { return begin_; }
   std::size_t end() const { return begin_ + length_; }
   double speed() const { return speed_; }
-  /// Of all bodies together, per frame.
+  /// The drift of all bodies together, per frame.
   const Vec3& drift() const { return drift_; }
   const char* levels() const {
     return !rules_.steps ? kLevels : self_twist_ > 0.0 ? kSelfStepLevels : kStepLevels;

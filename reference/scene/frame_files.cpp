@@ -82,7 +82,7 @@ bool counts_frames(const std::string& word) {
   return is_time(word) || words.contains(word);
 }
 
-// Of the path without its extension.
+// The numbers in the path without its extension.
 std::vector<Place> numbers_in(const std::string& path, std::size_t end) {
   std::vector<Place> out;
   for (std::size_t at = 0; at < end;) {

@@ -16,7 +16,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-// Of the smoothing: holds the mean of the differences, which L does not see.
+// The weight of |X - X0|^2 in the smoothing. It keeps the mean of X - X0, which L does not see.
 constexpr double kAnchor = 0.01;
 
 Rows rows_of(std::span<const Vec3> points) {

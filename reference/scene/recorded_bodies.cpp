@@ -88,8 +88,8 @@ std::string topology_fault(const mesh::PolygonSoup& frame, const std::vector<std
   return "";
 }
 
-// Of a frame whose triangles have corners of their own, where the vertices are that its mesh has
-// in their places. A fault, as topology_fault() says it, where the corners of one are apart.
+// Joins the points of a frame whose triangles share none into the vertices of its mesh. Returns a
+// fault, as topology_fault() does, if triangle counts differ or corners of one vertex are apart.
 std::string join_corners(const BodyShape& shape, mesh::PolygonSoup& frame) {
   const std::vector<Triangle> given = shape.given.numbered(shape.mesh.triangles);
   if (frame.size() != given.size())

@@ -45,7 +45,7 @@ std::optional<FinishedScene> PartialResults::take(const std::string& id,
   try {
     const Json file = Json::parse(read_text_file(file_of(id)));
     if (file.at("schema") != kSchema || file.at("identity") != identity) return std::nullopt;
-    // Of a list that is not there the reader would make an empty one.
+    // The reader would take a missing list for an empty one.
     for (const char* list : {"scenes", "runs", "disagreements"}) file.at("results").at(list);
     results::Results results = results::from_json(file.at("results"));
     if (results.scenes.size() != 1) return std::nullopt;

@@ -15,7 +15,7 @@ namespace contactcheck::suite {
 /// `source` was read as. @throws InputError when a file cannot be read again
 std::string content_of(const scene::SceneSource& source, const scene::Scene& scene);
 
-/// Of its bytes, as hexadecimal text. @throws InputError when it cannot be read
+/// The hash of a file's bytes, as hexadecimal text. @throws InputError when it cannot be read
 std::string hash_of_file(const std::filesystem::path& file);
 
 /// The program (by the bytes of its file: a detector that was rebuilt is another one), the

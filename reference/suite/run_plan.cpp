@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 
 using Names = std::vector<std::string>;
 
-// Of meshes without --detector: references, the paper's last word with and without triangles, ours.
+// Defaults for meshes: libraries, the paper's last method without and with triangles, and ours.
 const Names kForMeshes = {"fcl-aabb",  "embree",           "bullet-gimpact",
                           "bullet-vf", "ffd-aabb-sphere2", "ffd-aabb-sphere2+tri",
                           "ffd-lazy"};
 
-// Of one mesh that meets itself: those that answer.
+// Defaults for one mesh that meets itself: detectors of self-contact.
 const Names kForItself = {"fcl-aabb", "embree", "full-refit", "ffd-lazy"};
 
 // More, of a scene that is judged between frames.

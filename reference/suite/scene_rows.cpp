@@ -146,7 +146,7 @@ FinishedScene assemble(const SceneAnswers& scene, const SampleListener& tell) {
       finished.disagreements.push_back(d);
   }
   if (judged.truth_contacts.empty()) return finished;
-  // Of those whose answers count: one that broke later, in another process, has no contacts either.
+  // Contacts of detectors whose answers count: not of one that broke later, in another process.
   std::vector<std::string> contacts;
   for (const DetectorAnswer& detector : judged.detectors)
     if (finished.runs.at(detector.position).ok() && !detector.contacts.empty())

@@ -21,7 +21,7 @@ struct SceneTask {
   std::string id;
   scene::SceneSource source;
   std::vector<std::string> detectors;  ///< canonical names
-  /// Of these, whom speed-ups are given against beside the usual references.
+  /// Detectors to give speed-ups over, in addition to the usual references.
   std::vector<std::string> references;
   std::size_t frames = 0;    ///< that will be judged
   std::string content = "";  ///< hash of the scene's text and meshes: the same, the same scene

@@ -33,7 +33,7 @@ void record_scene(const WorkerState& worker) {
   recording.scene = scene.id;
   recording.bodies = scene.bodies;
   recording.time_step = scene.time_step;
-  // Of contact with itself, and within steps, nobody would ask a recording that does not say so.
+  // Without levels, a recording is judged neither for self-contact nor for contact within steps.
   if (any_self(scene.levels) || any_impact(scene.levels)) recording.levels = scene.levels;
   for (std::size_t f = 0; f < scene.frames; ++f)
     recording.frames.push_back(worker.judged.positions[f].nodes);
@@ -107,7 +107,7 @@ void add_entries(WorkerState& worker) {
   }
 }
 
-// Of a scene that was refused or cannot be judged: so ends every detector that could have run.
+// Ends every detector that could have run on a scene that was refused or cannot be judged.
 void end_all(WorkerState& worker, results::Status status, const std::string& message,
              std::optional<std::size_t> failed_frame = {}) {
   for (WorkerEntry& entry : worker.entries) {

@@ -127,7 +127,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return add(std::move(value));
   }
 
-  // Of the innermost open array or object.
+  // The path of the innermost open array or object.
   std::string path() const {
     std::string out;
     for (std::size_t i = 0; i + 1 < open_.size(); ++i) {

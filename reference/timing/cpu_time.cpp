@@ -36,8 +36,8 @@ double nanoseconds(const timeval& time) {
   return 1e9 * static_cast<double>(time.tv_sec) + 1e3 * static_cast<double>(time.tv_usec);
 }
 
-// Of those that it has waited for, in ticks: fields 16 and 17 of its status, which follow a name in
-// brackets.
+// CPU time of the children it has waited for, in nanoseconds: fields 16 and 17 of its status, in
+// ticks, which follow a name in brackets.
 double of_ended_children(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/stat");
   std::string text((std::istreambuf_iterator<char>(in)), {});

@@ -124,8 +124,8 @@ std::string markdown_report(const results::Index& index) {
       out += section_of(*section, index);
       continue;
     }
-    // Of families only wrong detectors are shown, and of many drawn scenes sums; tables of every
-    // detector would bury them.
+    // Families show only wrong detectors, and many drawn scenes only sums; tables of every detector
+    // would bury them.
     for (const results::Scene* scene : shown_scenes(index.results()))
       if (!scene->family) out += scene_section(index, *scene);
   }

@@ -95,7 +95,7 @@ void add_section(Json& all, const Section& section, const Blocks& blocks,
                    {"blocks", std::move(shown)}});
 }
 
-// Of random pairs the other formats say the same in the part of their scene.
+// A section of the page; report.md shows these tables in the section of their scene.
 Blocks pairs_blocks(const results::Results& results) {
   Blocks out;
   for (const results::Scene& scene : results.scenes)

@@ -79,7 +79,7 @@ void append(std::string& bytes, std::uint32_t value, int size) {
   for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
-// Of an array that is appended next.
+// A reference to the array that is appended next.
 Json reference(const char* type, std::size_t count, std::string& arrays) {
   align(arrays, '\0');
   return {{"type", type}, {"at", arrays.size()}, {"count", count}};
@@ -111,7 +111,7 @@ std::vector<std::uint32_t> flat(const std::vector<std::array<std::uint32_t, N>>&
   return out;
 }
 
-/// Of a shape, by ascending numbers.
+/// The parts of a shape that are kept, by ascending numbers.
 struct KeptParts {
   std::vector<std::uint32_t> triangles, vertices;
 };
@@ -130,7 +130,7 @@ KeptShapes kept_near_contacts(const Recording& recording, const Json& contacts) 
     if (kind != Element::kTriangle) return;
     for (const std::uint32_t v : shape.mesh.triangles[id]) near[&shape][v] = 1;
   });
-  // Of a body without named elements something, so that it has a place.
+  // A shape without named elements starts with one vertex, so that its bodies have a place.
   for (auto& [shape, marks] : near)
     if (std::find(marks.begin(), marks.end(), 1) == marks.end() && !shape->mesh.triangles.empty())
       marks[shape->mesh.triangles[0][0]] = 1;

@@ -65,7 +65,7 @@ class Layout {
     for (const std::size_t i : order) place(i);
   }
 
-  /// Of the last place_all; the smaller, the better the names are to read.
+  /// The cost of the last place_all; the lower, the easier the names are to read.
   double cost() const { return cost_; }
   const std::vector<std::optional<LabelPlace>>& places() const { return places_; }
 
@@ -116,7 +116,7 @@ class Layout {
     return {{points_[i].x, points_[i].y}, *place.leader};
   }
 
-  // Of the leader with others, names and markers; and of others' leaders with the name.
+  // Crossings: of the leader with other leaders, names and markers; of other leaders with the name.
   double crossings(std::size_t own, const LabelPlace& place) const {
     double count = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -6,7 +6,7 @@
 
 namespace contactcheck::report {
 
-/// Of a picture, in pixels, y downwards; left upper corner and size.
+/// A box in a picture, in pixels, y downwards; left upper corner and size.
 struct Box {
   double x = 0, y = 0, width = 0, height = 0;
   double right() const { return x + width; }

@@ -25,8 +25,8 @@ class LogAxis {
   double low_, span_;
 };
 
-/// Of shares of errors: 0 and 1 in 10,000 must both be seen, so it is nearly linear up to 0.1 % and
-/// nearly a logarithm above. Shares in [0, top()] go to [0, 1].
+/// An axis for shares of errors: 0 and 1 in 10,000 must both be seen, so it is nearly linear up to
+/// 0.1 % and nearly a logarithm above. Shares in [0, top()] go to [0, 1].
 class ErrorAxis {
  public:
   /// Room for `highest` (in [0, 1]) and always for 1 %.

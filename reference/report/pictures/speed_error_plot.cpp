@@ -67,7 +67,7 @@ struct LegendEntry {
   std::size_t line = 0;
 };
 
-// Of groups and questions that have a point, in as many lines as they need.
+// Entries for the groups and questions that have a point, in as many lines as they need.
 std::vector<LegendEntry> legend_of(const Points& points) {
   std::set<std::size_t> groups;
   std::set<Question> questions;

@@ -169,8 +169,8 @@ TitledTable bullet_inside_claim(const Index& index) {
   return out;
 }
 
-// Of the normals judged, those that point into the half of directions away from the true normal;
-// "-" where the results hold no histogram.
+// How many of the judged normals are 90 degrees or more off the true normal; "-" where the results
+// contain no histogram.
 std::string turned_normals(const results::ErrorSpread& normals) {
   if (normals.histogram.empty()) return "-";
   std::uint64_t turned = 0;

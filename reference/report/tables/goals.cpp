@@ -16,7 +16,7 @@ std::string wanted(const MeasuredGoal& goal) {
          unit_of(goal);
 }
 
-// Of the ratio that the goal is about. None known: then its ends are no more than a range.
+// The passes behind the goal's value; 0 if unknown: then its ends are no more than a range.
 std::size_t passes_of(const MeasuredGoal& goal, const results::Index& index) {
   const results::Run* run = index.ok_run(goal.scene, goal.detector);
   if (run == nullptr || run->times.empty()) return 0;

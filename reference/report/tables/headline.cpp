@@ -55,8 +55,8 @@ bool was_asked(const Index& index, const Run& run) {
   return scene == nullptr || scene->unjudged.empty();
 }
 
-// Of detectors that were judged, also where there was nothing to find, or ended in an error; in the
-// order of their first runs.
+// The detectors that were judged at a level they claim, even with nothing to find, or that ended in
+// an error; in the order of their first runs.
 std::vector<Verdict> verdicts_of(const Index& index) {
   std::vector<Verdict> all;
   std::set<std::string> families;
@@ -188,7 +188,7 @@ struct Winner {
   Names scenes;
 };
 
-// Of those that answer with all pairs of triangles, most scenes first.
+// The winners among detectors that answer with all pairs of triangles, most scenes first.
 std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& verdicts) {
   std::set<std::string> exact;
   for (const Verdict& verdict : verdicts)

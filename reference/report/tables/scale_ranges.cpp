@@ -116,7 +116,7 @@ TitledTable table_of(const std::vector<ScaleRange>& ranges, const std::string& b
   return out;
 }
 
-// Of the scenes in which the detector ran: with their triangles, or with how far out they are.
+// The detector's scenes outside its range, each with its edge lengths or how far out it is.
 std::vector<std::string> scenes_outside(const results::Index& index, const ScaleRange& range) {
   std::vector<std::string> names;
   for (const results::Scene& scene : index.results().scenes) {

@@ -12,6 +12,7 @@ RANGES = pathlib.Path("fixtures") / "hard" / "ranges.json"
 LARGEST = 200_000  # bytes of a file
 REFERENCES = ("fcl-aabb", "fcl-obbrss", "embree")
 COUNTS = ("missed", "spurious")
+ELEMENTS = ("impact-vf", "impact-ee", "impact-self-vf", "impact-self-ee")  # levels
 
 
 class TextError(Exception):
@@ -42,6 +43,9 @@ SCENE_FIELDS = {
     "true_bodies": lambda scene: scene["truth"]["body"],
     "true_self": lambda scene: [scene["truth"][level] for level in
                                 ("self", "self-vertex", "self-edge")],
+    "between": lambda scene: {"steps": len(scene["impacts"]["motion"]),
+                              "passing": sum(scene["impacts"]["passing"]),
+                              "pairs": sum(scene["truth"].get(level, 0) for level in ELEMENTS)},
 }
 
 
@@ -93,6 +97,22 @@ def self_speedup(run):
     return ratio and [ratio["ratio"], ratio["low"], ratio["high"], speedup["passes"]]
 
 
+def step_wrong(run):
+    """By level of steps, missed and spurious."""
+    return {level: [counts[kind] for kind in COUNTS] for level, counts in run["levels"].items()
+            if level.startswith("impact")}
+
+
+def step_speedup(run):
+    """In the first question of steps that is timed, by reference [ratio, low, high, passes]."""
+    for question in ("impacts", "self-impacts"):
+        if question in run["speedup"]:
+            return {reference: [speedup["playback"][end] for end in ("ratio", "low", "high")] +
+                    [speedup["passes"]]
+                    for reference, speedup in run["speedup"][question].items() if speedup["playback"]}
+    return {}
+
+
 # What a run's row may have. Counts are of the finest level judged.
 RUN_FIELDS = {
     "level": level_of,
@@ -113,6 +133,9 @@ RUN_FIELDS = {
     "speedup": speedups,
     "ratios": lambda run: {reference: ends[0] for reference, ends in speedups(run).items()},
     "memory_bytes": lambda run: run["memory_bytes"],
+    "step_wrong": step_wrong,
+    "step_speedup": step_speedup,
+    "tunnelled": lambda run: sum(run["impacts"]["tunnelled"]),
     "self_ms": self_ms,
     "self_wrong": self_wrong,
     "self_speedup": self_speedup,
@@ -298,6 +321,8 @@ FILES = {
                     "runs": ("truth", *COUNTS, "ms", "passes", "speedup"), "goals": GOAL},
     "self": {"scenes": ("frames", "triangles", "true_self"),
              "runs": ("self_wrong", "self_ms", "self_speedup"), "goals": GOAL},
+    "continuous": {"scenes": ("triangles", "between"),
+                   "runs": ("step_wrong", "step_speedup", "tunnelled"), "goals": GOAL},
     "hard": {"sums": (), "detectors": ()},
     "single-lazy": {"scenes": ("true_pairs",),
                     "runs": (*COUNTS, "missed_bodies", "spurious_bodies", "spurious_distance")},
@@ -314,6 +339,7 @@ FILES = {
     "drawn": {"drawn_sums": (), "drawn": ("Missed and spurious",)},
     "drawn-times": {"drawn_sums": (), "drawn": ("Missed and spurious", "Speed-ups")},
     "drawn-steps": {"step_sums": (), "drawn": ("Missed and spurious",)},
+    "drawn-steps-times": {"step_sums": (), "drawn": ("Missed and spurious", "Speed-ups")},
 }
 
 

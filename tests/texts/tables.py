@@ -198,6 +198,35 @@ def self_scenes(files):
                   "ffd-lazy over embree:", "missed + spurious"], rows)
 
 
+EXACT_BETWEEN = ("ffd-lazy", "full-refit", "swept-aabb", "embree-swept")
+
+
+def continuous(files):
+    """Between frames: the exact detectors are right in every row, or the text is not made."""
+    file, rows = files["continuous"], []
+    for scene in file.scenes():
+        about = file.row("scenes", scene=scene)
+        runs = {row["detector"]: row for row in file.rows("runs") if row["scene"] == scene}
+        for detector in EXACT_BETWEEN:
+            if any(pair != [0, 0] for pair in runs[detector]["step_wrong"].values()):
+                raise TextError(f"{file.place}: {detector} is wrong in {scene}; the text says that "
+                                "it is right in all")
+        lazy, fcl = runs["ffd-lazy"]["step_speedup"], runs.get("fcl-ccd", {})
+        rows.append([scene, count(about["triangles"]), count(about["between"]["steps"]),
+                     count(about["between"]["pairs"]), count(about["between"]["passing"]),
+                     count(runs["embree"]["tunnelled"]),
+                     *(ratio(*lazy[peer]) if peer in lazy else "-"
+                       for peer in ("embree-swept", "fcl-ccd")),
+                     wrong(fcl["step_wrong"]["impact-triangle"]) if fcl else "-"])
+    return table(["scene", "triangles:", "steps:", "true pairs of elements:", "passing bodies:",
+                  "unseen in frames:", "ffd-lazy over embree-swept:", "over fcl-ccd:",
+                  "fcl-ccd, missed + spurious:"], rows)
+
+
+def continuous_goals(files):
+    return goals_of(files["continuous"])
+
+
 def self_goals(files):
     return goals_of(files["self"])
 
@@ -383,6 +412,8 @@ def paper_overview(files):
 # With contact first: where a detector has to do something.
 DRAWN_KINDS = ("with contact", "without contact")
 STEP_KINDS = ("with impacts", "without impacts")
+STEP_SPEED = ("ffd-lazy", "full-refit", "swept-aabb")
+STEP_PEERS = ("embree-swept", "fcl-ccd")
 DRAWN_SPEED = ("ffd-lazy", "full-refit", "ffd-aabb-sphere2+tri")
 DRAWN_PEERS = {"fcl-aabb": "FCL", "embree": "Embree"}
 
@@ -397,10 +428,10 @@ def drawn_row(file, table, kind, **wanted):
     return found[0]
 
 
-def drawn_speedups(file, detector):
+def drawn_speedups(file, detector, kinds=DRAWN_KINDS, peers=tuple(DRAWN_PEERS)):
     """(kind of scenes, reference, row) of each of its ratios."""
     return [(kind, over, drawn_row(file, "Speed-ups", kind, detector=detector, over=over))
-            for kind in DRAWN_KINDS for over in DRAWN_PEERS]
+            for kind in kinds for over in peers]
 
 
 def drawn_headline(files):
@@ -446,6 +477,16 @@ def drawn_accuracy(files):
                   "scenes wrong:", "without contact:", "spurious:", "scenes wrong:"], rows)
 
 
+def drawn_step_speed(files):
+    file = files["drawn-steps-times"]
+    rows = [[f"`{detector}`", kind, f"`{over}`", row["median"], row["10th percentile"],
+             row["worst"], f"{row['faster in']} of {row['scenes']}"]
+            for detector in STEP_SPEED
+            for kind, over, row in drawn_speedups(file, detector, STEP_KINDS, STEP_PEERS)]
+    return table(["detector", "scenes", "over", "median:", "10th percentile:", "worst:",
+                  "faster in:"], rows)
+
+
 def drawn_steps(files):
     """Errors at each level over all drawn steps, as missed / spurious."""
     file, rows = files["drawn-steps"], []
@@ -468,7 +509,9 @@ def drawn_steps(files):
 TABLES = {"headline": headline, "default": default_summary, "performance": performance_peers,
           "goals": performance_goals, "drawn": drawn_headline, "drawn-times": drawn_speed,
           "drawn-decides": drawn_decides, "self": self_scenes, "self-goals": self_goals,
-          "drawn-accuracy": drawn_accuracy, "drawn-steps": drawn_steps, "single-lazy": single_lazy,
+          "continuous": continuous, "continuous-goals": continuous_goals,
+          "drawn-accuracy": drawn_accuracy, "drawn-steps": drawn_steps,
+          "drawn-steps-times": drawn_step_speed, "single-lazy": single_lazy,
           "single-lazy-times": single_lazy_times, "single-historic": single_historic,
           "single-historic-times": single_historic_times, "hard": hard_wrong, "settings": settings,
           "ranges": scale_ranges,
@@ -497,6 +540,7 @@ def figures(files):
     lazy, hard_single, paper = files["single-lazy"], files["single-hard"], files["reproduce"]
     drawn, drawn_times = files["drawn"].row("drawn_sums"), files["drawn-times"].row("drawn_sums")
     steps = files["drawn-steps"].row("step_sums")
+    step_times = files["drawn-steps-times"].row("step_sums")
     historic_times, lazy_times, small = (files["single-historic-times"], files["single-lazy-times"],
                                          files["paper-64"])
 
@@ -574,6 +618,10 @@ def figures(files):
         "performance.minutes": lambda: minutes_of(performance),
         "performance.passes": lambda: str(passes_of(performance)),
         "performance.true_pairs": lambda: count(pairs_that_all_find()),
+        "continuous.machine": lambda: machine(files["continuous"]),
+        "continuous.took": lambda: took(files["continuous"]),
+        "continuous.pairs": lambda: count(sum(
+            scene["between"]["pairs"] for scene in files["continuous"].rows("scenes"))),
         "self.machine": lambda: machine(files["self"]),
         "self.took": lambda: took(files["self"]),
         "drawn.scenes": lambda: count(drawn["scenes"]),
@@ -587,6 +635,11 @@ def figures(files):
            for name in ("scenes", "steps", "with_impacts", "with_self", "passing")},
         **{f"drawn-steps.true.{level}": lambda level=level: count(steps["true"][level])
            for level in steps["true"]},
+        "drawn-steps-times.scenes": lambda: count(step_times["scenes"]),
+        "drawn-steps-times.with_impacts": lambda: count(step_times["with_impacts"]),
+        "drawn-steps-times.steps": lambda: count(step_times["steps"]),
+        "drawn-steps-times.machine": lambda: machine(files["drawn-steps-times"]),
+        "drawn-steps-times.minutes": lambda: minutes_of(files["drawn-steps-times"]),
         "drawn-steps.seed": lambda: str(steps["seed"]),
         "drawn-steps.machine": lambda: machine(files["drawn-steps"]),
         "drawn-steps.minutes": lambda: minutes_of(files["drawn-steps"]),

@@ -59,10 +59,14 @@ void check_detector(const std::string& name, const StepScene& scene, const oracl
     return step;
   };
   Step step = given(scene.step());
-  // Every second scene is looked at after its step backwards.
+  // Every second scene is looked at after its step backwards and one at rest.
   step.follows = index % 2 == 1;
   if (step.follows) {
     detector->update_step(given({scene.end.frame(0), scene.start.frame(1)}));
+    detector->query(Question::kImpacts, got);
+    Step rest = given({scene.start.frame(1), scene.start.frame(2)});
+    rest.follows = true;
+    detector->update_step(rest);
     detector->query(Question::kImpacts, got);
     got.clear();
   }

@@ -200,7 +200,8 @@ std::vector<StepContact> StepChecker::check(std::size_t k, const FrameContacts& 
   detector_->update_step(step);
   if (!allowed_.contact) detector_->query(Question::kImpacts, answer);
   if (!allowed_.self) detector_->query(Question::kSelfImpacts, answer);
-  for (const Count& count : detector_->counts()) element_tests_ += count.value;
+  for (const Count& count : detector_->counts())
+    if (count.name == "element_tests") element_tests_ += count.value;
   answer.canonicalize();
 
   FoundElements elements(step, scene_, edges_);

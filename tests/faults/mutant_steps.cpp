@@ -52,19 +52,13 @@ void check_detector(const std::string& name, const StepScene& scene, const oracl
   const std::unique_ptr<Detector> detector = catalog.make(catalog.parse(name));
   detector->prepare(scene.bodies);
   ContactSet got;
-  const auto given = [&](Step step) {
-    for (Frame* frame : {&step.start, &step.end})
-      for (BodyState& body : frame->bodies)
-        if (!detector->needs_vertices()) body.vertices = {};
-    return step;
-  };
-  Step step = given(scene.step());
+  Step step = given_to(*detector, scene.step());
   // Every second scene is looked at after its step backwards and one at rest.
   step.follows = index % 2 == 1;
   if (step.follows) {
-    detector->update_step(given({scene.end.frame(0), scene.start.frame(1)}));
+    detector->update_step(given_to(*detector, {scene.end.frame(0), scene.start.frame(1)}));
     detector->query(Question::kImpacts, got);
-    Step rest = given({scene.start.frame(1), scene.start.frame(2)});
+    Step rest = given_to(*detector, {scene.start.frame(1), scene.start.frame(2)});
     rest.follows = true;
     detector->update_step(rest);
     detector->query(Question::kImpacts, got);

@@ -15,6 +15,7 @@
 
 #include "core/deform/body.h"
 #include "core/deform/node_shape.h"
+#include "core/detect/detector.h"
 #include "core/types/frame.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/shapes.h"
@@ -29,6 +30,14 @@ struct StepScene {
   /// Points into this object, as FrameData::frame().
   Step step() const { return {start.frame(0), end.frame(1)}; }
 };
+
+/// As a run gives it to the detector: without vertices to one that needs none.
+inline Step given_to(const Detector& detector, Step step) {
+  for (Frame* frame : {&step.start, &step.end})
+    for (BodyState& body : frame->bodies)
+      if (!detector.needs_vertices()) body.vertices = {};
+  return step;
+}
 
 /// The same backwards in time.
 inline StepScene reversed(StepScene scene) {

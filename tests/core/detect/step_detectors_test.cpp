@@ -470,13 +470,9 @@ TEST(StepDetectors, StepsInAnyOrderGiveTheAnswersOfFreshDetectors) {
   }
 }
 
-/// As a run gives it: without vertices to a detector that needs none.
 ContactSet answer_in_a_row(Detector& detector, const StepScene& scene, bool follows, bool own) {
-  Step step = scene.step();
+  Step step = test::given_to(detector, scene.step());
   step.follows = follows;
-  for (Frame* frame : {&step.start, &step.end})
-    for (BodyState& body : frame->bodies)
-      if (!detector.needs_vertices()) body.vertices = {};
   detector.update_step(step);
   ContactSet out;
   detector.query(Question::kImpacts, out);

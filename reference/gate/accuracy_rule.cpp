@@ -1,10 +1,13 @@
 #include "reference/gate/accuracy_rule.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "reference/text/json_value.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::gate {
 namespace {
@@ -129,6 +132,8 @@ Reading read_measure(const Rule& rule, const results::Results& results, const re
     case MeasureKind::kOracle:
     case MeasureKind::kHash:
     case MeasureKind::kStatus:
+    case MeasureKind::kLevels:
+    case MeasureKind::kQuestions:
     case MeasureKind::kSpeedup:
     case MeasureKind::kSlowdown:
       break;  // read elsewhere
@@ -189,6 +194,31 @@ Check hash_against_truth(const Rule& rule, const results::Index& now, const resu
   return out;
 }
 
+// A weaker claim is a weaker test: who claims less is wrong less often.
+Check judge_claims(const Rule& rule, const results::Run& row) {
+  const bool of_levels = rule.measure->kind == MeasureKind::kLevels;
+  std::vector<std::string> claimed, unjudged;
+  for (const Level level : row.semantics.levels)
+    if (of_levels) claimed.emplace_back(name_of(level));
+  for (const Question question : row.semantics.questions)
+    if (!of_levels) claimed.emplace_back(name_of(question));
+  bool holds = true;
+  for (const std::string& name : rule.included) {
+    const std::optional<Level> level = of_levels ? level_from_name(name) : std::nullopt;
+    if (std::find(claimed.begin(), claimed.end(), name) == claimed.end())
+      holds = false;
+    else if (level && !row.levels.contains(*level))
+      unjudged.push_back(name);
+  }
+  if (!holds || unjudged.empty())
+    return checked(rule, holds, std::string(rule.measure->name) + " " + text::joined(claimed));
+  const auto reason = row.not_judged.find(*level_from_name(unjudged.front()));
+  return cannot_judge(
+      rule, "level " + unjudged.front() + " is " +
+                (reason != row.not_judged.end() ? reason->second
+                                                : "not judged: the scene does not ask for it"));
+}
+
 bool within(const Rule& rule, double value) {
   return rule.bound == Bound::kAtMost ? value <= rule.limit : value >= rule.limit;
 }
@@ -245,6 +275,7 @@ Check judge_accuracy(const Rule& rule, const results::Index& now, const results:
   if (rule.measure->kind == MeasureKind::kHash)
     return rule.bound == Bound::kEquals ? hash_against_truth(rule, now, row)
                                         : hash_against_baseline(rule, now, *before, row);
+  if (rule.bound == Bound::kIncludes) return judge_claims(rule, row);
   const Reading reading = read_measure(rule, now.results(), row);
   if (rule.bound == Bound::kUnchanged) return number_against_baseline(rule, *before, row, reading);
   if (!reading.value) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "reference/results/results_json.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::gate {
 namespace {
@@ -34,6 +35,10 @@ std::string row_change(const results::Run& before, const results::Run& now) {
   std::string line;
   add_change(line, "status", name_of(before.status), name_of(now.status));
   if (!before.ok() || !now.ok()) return line;
+  const auto levels = [](const results::Run& row) {
+    return text::joined(row.semantics.levels, [](Level level) { return name_of(level); });
+  };
+  add_change(line, "levels", levels(before), levels(now));
   add_change(line, "frames", std::to_string(before.frames), std::to_string(now.frames));
   for (const auto& [name, count] :
        {std::pair<const char*, Count>{"truth", &results::LevelCounts::truth},
@@ -70,6 +75,7 @@ void add_members(const char* kind, const Texts& before, const Texts& now,
 results::Results baseline_of(results::Results results) {
   results.disagreements.clear();
   results.resumed.reset();
+  results.identities.clear();
   results.merged.clear();
   for (results::Scene& scene : results.scenes) scene.separation.clear();
   for (results::Run& row : results.runs) {

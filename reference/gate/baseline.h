@@ -8,8 +8,8 @@
 
 namespace contactcheck::gate {
 
-/// Drops recordings, cases, times and shares per frame, histograms and episodes; keeps machine,
-/// libraries and command. @pre not a shard
+/// Drops recordings, cases, identities, times and shares per frame, histograms and episodes; keeps
+/// machine, libraries and command. @pre not a shard
 results::Results baseline_of(results::Results results);
 
 /// The text of the file: one line per scene and per row, so that a changed row is one line of a

@@ -12,6 +12,7 @@
 #include "reference/gate/blame.h"
 #include "reference/gate/timing_rule.h"
 #include "reference/text/file_text.h"
+#include "reference/text/json_value.h"
 #include "reference/text/lists.h"
 
 namespace contactcheck::gate {
@@ -88,6 +89,71 @@ void apply_rule(const Rule& rule, const results::Index& now, const results::Inde
   for (Check& idle : idle_patterns(rule, rows, now.results())) out.push_back(std::move(idle));
 }
 
+// "x in the baseline, y now"
+std::string change(const std::string& what, const std::string& before, const std::string& now) {
+  return what + " " + before + " in the baseline, " + now + " now";
+}
+
+std::vector<std::string> levels_no_more(const results::Run& row, const results::Run& old) {
+  std::vector<std::string> out;
+  for (const auto& [level, counts] : old.levels) {
+    const auto now = row.levels.find(level);
+    if (counts.informative || (now != row.levels.end() && !now->second.informative)) continue;
+    const auto reason = row.not_judged.find(level);
+    out.push_back(std::string("level ") + name_of(level) + " was judged in the baseline; now " +
+                  (!row.semantics.claims(level)     ? "the detector does not claim it"
+                   : reason != row.not_judged.end() ? "it is " + reason->second
+                                                    : "the scene does not ask for it"));
+  }
+  return out;
+}
+
+// What is judged by another measure cannot be compared: a wider margin or tolerance excuses more.
+std::vector<std::string> changed_measures(const Semantics& now, const Semantics& before) {
+  std::vector<std::string> out;
+  const auto compare = [&](const std::string& what, const std::string& a, const std::string& b) {
+    if (a != b) out.push_back(change("it declares " + what, a, b));
+  };
+  const auto yes = [](bool b) { return std::string(b ? "yes" : "no"); };
+  compare("margin (metres)", text::shown(before.margin), text::shown(now.margin));
+  if (now.tolerance.absolute > before.tolerance.absolute)
+    compare("tolerance (metres)", text::shown(before.tolerance.absolute),
+            text::shown(now.tolerance.absolute));
+  if (now.tolerance.of_start > before.tolerance.of_start)
+    compare("tolerance (share of the distance at the start)",
+            text::shown(before.tolerance.of_start), text::shown(now.tolerance.of_start));
+  compare("that containment is contact:", yes(before.solid), yes(now.solid));
+  compare("that touching is contact:", yes(before.closed), yes(now.closed));
+  if (before.exact) compare("that it is exact:", "yes", yes(now.exact));
+  compare("precision", name_of(before.precision), name_of(now.precision));
+  compare("scale", text::shown(before.scale), text::shown(now.scale));
+  compare("depth", name_of(before.depth), name_of(now.depth));
+  return out;
+}
+
+// Sentences; both rows are `ok`.
+std::vector<std::string> judged_no_more(const results::Run& row, const results::Run& old) {
+  std::vector<std::string> out = levels_no_more(row, old);
+  for (const Question question : old.semantics.questions)
+    if (!row.semantics.answers(question))
+      out.push_back(std::string("question ") + name_of(question) +
+                    " was answered in the baseline; now the detector does not answer it");
+  for (std::string& changed : changed_measures(row.semantics, old.semantics))
+    out.push_back(std::move(changed));
+  if (row.frames < old.frames)
+    out.push_back(change("judged frames:", std::to_string(old.frames), std::to_string(row.frames)));
+  const auto none_now = [&](const std::string& what, std::uint64_t before, std::uint64_t now) {
+    if (before > 0 && now == 0) out.push_back(change(what, std::to_string(before), "none"));
+  };
+  none_now("judged depths:", old.geometry.depth.judged, row.geometry.depth.judged);
+  none_now("judged normals:", old.geometry.normal_deg.judged, row.geometry.normal_deg.judged);
+  none_now("judged times within steps:", old.impacts ? old.impacts->timed : 0,
+           row.impacts ? row.impacts->timed : 0);
+  if (old.closed_loop && !row.closed_loop)
+    out.push_back("the motion that it drives was judged in the baseline, and is not now");
+  return out;
+}
+
 }  // namespace
 
 std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows,
@@ -157,7 +223,15 @@ std::vector<Check> lost_rows(const results::Index& now, const results::Results& 
   for (const results::Run& old : before.runs) {
     const results::Run* const row = now.run(old.scene, old.detector);
     if (row != nullptr) {
-      if (!old.ok() || row->ok() || is_unisolated(now.results(), *row)) continue;
+      if (!old.ok() || is_unisolated(now.results(), *row)) continue;
+      if (row->ok()) {
+        for (const std::string& lost : judged_no_more(*row, old)) {
+          Check& check = add(old, lost);
+          check.detector = old.detector;
+          check.rerun = rerun_command(about_status, now, *row, Verdict::kFail);
+        }
+        continue;
+      }
       Check& check = add(old, row->message);
       check.detector = old.detector;
       check.measured = std::string("status ") + name_of(row->status);

@@ -32,8 +32,10 @@ std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& r
 /// A failure if more rules cannot judge some of their rows than the policy allows.
 std::optional<Check> too_many_open(const Policy& policy, const GateResult& result);
 
-/// A failure for every scene and row of the baseline that the results lack, and for every row that
-/// was `ok` in the baseline and is not now.
+/// A failure for every scene and row of the baseline that the results lack, for every row that was
+/// `ok` in the baseline and is not now, and for what the baseline judged of a row and the results
+/// do not: levels, questions, frames, depths, normals, times within steps, a driven motion; also
+/// where the row declares another measure of contact than in the baseline, as a wider margin.
 std::vector<Check> lost_rows(const results::Index& now, const results::Results& before);
 
 /// Applies every rule to every row that it is about. Failures are also: a rule whose patterns match

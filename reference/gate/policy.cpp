@@ -8,6 +8,7 @@
 #include "core/types/semantics.h"
 #include "reference/text/file_text.h"
 #include "reference/text/json_field.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::gate {
 namespace {
@@ -44,6 +45,8 @@ constexpr Measure kMeasures[] = {
     {"oracle_wrong", MeasureKind::kOracle, "", 0, kEndless},
     {"contact_hash", MeasureKind::kHash, "", 0, 0},
     {"status", MeasureKind::kStatus, "", 0, 0},
+    {"levels", MeasureKind::kLevels, "", 0, 0},
+    {"questions", MeasureKind::kQuestions, "", 0, 0},
     {"speedup", MeasureKind::kSpeedup, "x", 0, kEndless},
     {"slowdown", MeasureKind::kSlowdown, "x", 0, kEndless}};
 
@@ -66,8 +69,15 @@ bool is_timing(const Measure& measure) {
 }
 
 bool is_accuracy_number(const Measure& measure) {
-  return !is_timing(measure) && measure.kind != MeasureKind::kHash &&
-         measure.kind != MeasureKind::kStatus;
+  switch (measure.kind) {
+    case MeasureKind::kHash:
+    case MeasureKind::kStatus:
+    case MeasureKind::kLevels:
+    case MeasureKind::kQuestions:
+      return false;
+    default:
+      return !is_timing(measure);
+  }
 }
 
 bool matches(const std::string& pattern, const std::string& name) {
@@ -90,6 +100,9 @@ Keys bounds_of(const Measure& measure) {
       return {"unchanged", "equals"};
     case MeasureKind::kStatus:
       return {"equals"};
+    case MeasureKind::kLevels:
+    case MeasureKind::kQuestions:
+      return {"includes"};
     case MeasureKind::kSpeedup:
       return {"at_least", "at_most"};  // or both
     case MeasureKind::kSlowdown:
@@ -152,6 +165,12 @@ bool says_true(const text::JsonField& rule, const std::string& key) {
   return true;
 }
 
+std::vector<std::string> question_names() {
+  std::vector<std::string> names;
+  for (const Question question : kQuestions) names.emplace_back(name_of(question));
+  return names;
+}
+
 void parse_bound(const text::JsonField& field, Rule& rule) {
   if (rule.measure->kind == MeasureKind::kSpeedup && field.has("at_least") &&
       field.has("at_most")) {
@@ -167,6 +186,11 @@ void parse_bound(const text::JsonField& field, Rule& rule) {
   if (key == "unchanged") {
     says_true(field, key);
     rule.bound = Bound::kUnchanged;
+  } else if (key == "includes") {
+    rule.bound = Bound::kIncludes;
+    const std::vector<std::string> known =
+        rule.measure->kind == MeasureKind::kLevels ? level_names() : question_names();
+    for (const text::JsonField& item : bound.items(1)) rule.included.push_back(item.one_of(known));
   } else if (key == "equals") {
     bound.one_of({rule.measure->kind == MeasureKind::kHash ? "truth" : "ok"});
     rule.bound = Bound::kEquals;
@@ -179,9 +203,7 @@ void parse_bound(const text::JsonField& field, Rule& rule) {
 void parse_timing(const text::JsonField& field, Rule& rule) {
   constexpr text::NumberRange kShare{0.0, false, 10.0, false},
       kMicroseconds{0.0, false, 1e9, false};
-  std::vector<std::string> questions;
-  for (const Question question : kQuestions) questions.push_back(name_of(question));
-  rule.question = field.at("question").one_of(questions);
+  rule.question = field.at("question").one_of(question_names());
   rule.reference = field.at("reference").text();
   if (field.has("part"))
     rule.part = field.at("part").one_of({"playback", "cold", "contact_frames", "without_map"});
@@ -231,6 +253,7 @@ std::string allowed_text(const Rule& rule) {
   if (rule.bound == Bound::kUnchanged) return "that of the baseline";
   if (rule.bound == Bound::kEquals)
     return rule.measure->kind == MeasureKind::kHash ? "that of the truth" : "ok";
+  if (rule.bound == Bound::kIncludes) return text::joined(rule.included) + " among them";
   const std::string unit = rule.measure->unit;
   const auto number = [&](double limit) {
     return text::shown(limit) + (unit == "x" || unit.empty() ? "" : " ") + unit;

@@ -12,17 +12,19 @@ namespace contactcheck::gate {
 // The measures that a rule can be about.
 
 enum class MeasureKind {
-  kLevel,     ///< runs[].levels.LEVEL
-  kGeometry,  ///< runs[].geometry
-  kImpacts,   ///< runs[].impacts
-  kStages,    ///< runs[].stages[].missed
-  kMemory,    ///< runs[].memory_bytes
-  kDefects,   ///< known_defects: unlisted and not shown ones of this row
-  kOracle,    ///< scenes[].pairs.rational.oracle_wrong
-  kHash,      ///< runs[].contact_hash
-  kStatus,    ///< runs[].status
-  kSpeedup,   ///< runs[].speedup: time of a reference / time of the detector
-  kSlowdown   ///< the baseline's speed-up / this run's
+  kLevel,      ///< runs[].levels.LEVEL
+  kGeometry,   ///< runs[].geometry
+  kImpacts,    ///< runs[].impacts
+  kStages,     ///< runs[].stages[].missed
+  kMemory,     ///< runs[].memory_bytes
+  kDefects,    ///< known_defects: unlisted and not shown ones of this row
+  kOracle,     ///< scenes[].pairs.rational.oracle_wrong
+  kHash,       ///< runs[].contact_hash
+  kStatus,     ///< runs[].status
+  kLevels,     ///< runs[].semantics.levels
+  kQuestions,  ///< runs[].semantics.questions
+  kSpeedup,    ///< runs[].speedup: time of a reference / time of the detector
+  kSlowdown    ///< the baseline's speed-up / this run's
 };
 
 struct Measure {
@@ -60,6 +62,7 @@ enum class Bound {
   kAtLeast,
   kBetween,    ///< of speed-ups: a range with both ends
   kUnchanged,  ///< equal to the baseline
+  kIncludes,   ///< names that must be among those of the row: levels, questions
   kEquals      ///< a word: status "ok", contact hash "truth"
 };
 
@@ -69,9 +72,10 @@ struct Rule {
   Patterns scenes, detectors;
   const Measure* measure = nullptr;  ///< points into a static table (find_measure)
   Bound bound = Bound::kAtMost;
-  double limit = 0.0;     ///< of kAtMost and kAtLeast; the lower one of kBetween
-  double upper = 0.0;     ///< of kBetween, above `limit`
-  std::string level;      ///< empty: the finest that is claimed and was judged
+  std::vector<std::string> included;  ///< of kIncludes: at least one, in the order of the policy
+  double limit = 0.0;                 ///< of kAtMost and kAtLeast; the lower one of kBetween
+  double upper = 0.0;                 ///< of kBetween, above `limit`
+  std::string level;                  ///< empty: the finest that is claimed and was judged
   bool rounded = false;   ///< judged for the input that a single-precision detector was fed
   std::string stage;      ///< of stage_missed; empty: all together
   std::string question;   ///< of timing rules
@@ -102,7 +106,8 @@ struct Policy {
 /// True if the rule needs the results of an earlier run.
 bool needs_baseline(const Rule& rule);
 
-/// "at most 0", "at least 1x and at most 8x", "that of the baseline", "ok"; with the unit.
+/// "at most 0", "at least 1x and at most 8x", "that of the baseline", "ok", "body, triangle among
+/// them"; with the unit.
 std::string allowed_text(const Rule& rule);
 
 /// @throws InputError with file, place and value

@@ -126,3 +126,117 @@ def test_baseline_row_that_failed_in_it_may_fail_again_or_be_new(gate, results):
     baseline = results.copy()  # "broken" failed and "lost" was absent
     results["runs"].append({**results.row("exact"), "detector": "new"})
     assert red_sentences(gate([HOLDS], results, baseline)) == []
+
+
+def paper_rule(measure, *names, **more):
+    return {"scenes": ["touch"], "detectors": ["paper"], "measure": measure, "includes": list(names), **more}
+
+
+def test_claims_that_a_policy_pins_hold_or_fail(gate, results):
+    results.row("paper")["semantics"]["questions"] = ["cells", "body"]
+    checks = gate([paper_rule("levels", "cell"), paper_rule("levels", "body", "cell"),
+                   paper_rule("levels", "cell", "triangle"), paper_rule("questions", "body"),
+                   paper_rule("questions", "triangles", "body")], results)
+    assert [(check.verdict, check.red) for check in checks] == [
+        ("pass", False), ("pass", False), ("fail", True), ("pass", False), ("fail", True)]
+    assert checks[2].sentence == "touch  paper: levels body, cell, allowed cell, triangle among them"
+    assert checks[4].sentence == "touch  paper: questions cells, body, allowed triangles, body among them"
+    assert checks[2].rerun == "contactcheck run scenes/touch.json --frames 8 --detector paper --no-timing"
+
+
+def test_pinned_level_that_was_not_judged_cannot_be_judged(gate, results):
+    row = results.row("paper")
+    row["semantics"]["levels"].append("vertex")
+    [check] = gate([paper_rule("levels", "vertex")], results)
+    assert check.verdict == "cannot judge"
+    assert check.sentence == "touch  paper: level vertex is not judged: the scene does not ask for it"
+    row["not_judged"] = {"vertex": "not judged: open"}
+    [check] = gate([paper_rule("levels", "vertex", unjudged="fail")], results)
+    assert check.red
+    assert check.sentence == "touch  paper: cannot judge: level vertex is not judged: open"
+
+
+def lost(gate, results, baseline):
+    """What the baseline's row "paper" has and the results' has not."""
+    out = []
+    for check in gate([HOLDS], results, baseline):
+        if check.red:
+            assert (check.rule, check.name) == (BASELINE_RULE, "touch paper")
+            assert check.rerun.startswith("contactcheck run scenes/touch.json --frames ")
+            out.append(check.sentence.removeprefix("touch  paper: "))
+    return out
+
+
+def test_weaker_claim_than_in_the_baseline_is_broken(gate, results):
+    baseline = results.copy()
+    baseline.row("paper")["semantics"]["questions"] = ["cells", "body"]
+    row = results.row("paper")
+    row["semantics"].update(levels=["body"], questions=["body"])
+    del row["levels"]["cell"]
+    assert lost(gate, results, baseline) == [
+        "level cell was judged in the baseline; now the detector does not claim it",
+        "question cells was answered in the baseline; now the detector does not answer it"]
+    assert lost(gate, baseline, results) == [], "a stronger one is none"
+
+
+def test_level_that_is_no_longer_judged_is_broken_with_its_reason(gate, results):
+    baseline = results.copy()
+    row = results.row("paper")
+    counts = row["levels"].pop("cell")
+    assert lost(gate, results, baseline) == [
+        "level cell was judged in the baseline; now the scene does not ask for it"]
+    row["not_judged"] = {"cell": "not judged: open"}
+    assert lost(gate, results, baseline) == ["level cell was judged in the baseline; now it is not judged: open"]
+    row["levels"]["cell"] = {**counts, "informative": True}
+    assert len(lost(gate, results, baseline)) == 1, "what is shown alone is not gated"
+    baseline.row("paper")["levels"]["cell"]["informative"] = True
+    assert lost(gate, results, baseline) == [], "nor was it"
+
+
+@pytest.mark.parametrize("key, before, now, sentence, other_way", [
+    ("margin", 0.001, 0.01, "it declares margin (metres) 0.001 in the baseline, 0.01 now", True),
+    ("tolerance", 0.001, 0.01, "it declares tolerance (metres) 0.001 in the baseline, 0.01 now", False),
+    ("tolerance_of_start", 0.25, 0.5, "it declares tolerance (share of the distance at the start) 0.25 in the "
+     "baseline, 0.5 now", False),
+    ("body", "surface", "solid", "it declares that containment is contact: no in the baseline, yes now", True),
+    ("touching", "closed", "open", "it declares that touching is contact: yes in the baseline, no now", True),
+    ("exact", True, False, "it declares that it is exact: yes in the baseline, no now", False),
+    ("precision", "double", "single", "it declares precision double in the baseline, single now", True),
+    ("scale", 1, 2, "it declares scale 1 in the baseline, 2 now", True),
+    ("depth_kind", "vertex-surface", "none", "it declares depth vertex-surface in the baseline, none now", True)])
+def test_other_measure_of_contact_than_in_the_baseline_is_broken(gate, results, key, before, now, sentence,
+                                                                 other_way):
+    baseline = results.copy()
+    baseline.row("paper")["semantics"][key] = before
+    results.row("paper")["semantics"][key] = now
+    assert lost(gate, results, baseline) == [sentence]
+    assert len(lost(gate, baseline, results)) == other_way
+
+
+def test_fewer_frames_than_in_the_baseline_are_broken(gate, results):
+    baseline = results.copy()
+    results.row("paper")["frames"] = 7
+    assert lost(gate, results, baseline) == ["judged frames: 8 in the baseline, 7 now"]
+    assert lost(gate, baseline, results) == []
+
+
+@pytest.mark.parametrize("key, what", [("depth_judged", "depths"), ("normal_judged", "normals")])
+def test_depths_and_normals_that_are_no_longer_judged_are_broken(gate, results, key, what):
+    baseline = results.copy()
+    baseline.row("paper")["geometry"][key] = 9
+    results.row("paper")["geometry"][key] = 0
+    assert lost(gate, results, baseline) == [f"judged {what}: 9 in the baseline, none now"]
+    assert lost(gate, baseline, results) == []
+
+
+def test_times_and_motion_that_are_no_longer_judged_are_broken(gate, results):
+    baseline = results.copy()
+    impacts = {"tunnelled": [], "timed": 3, "early_max": 0, "late_max": 0}
+    for of, timed in ((baseline, 3), (results, 0)):
+        of.row("paper")["impacts"] = {**impacts, "timed": timed}
+    baseline.row("paper")["closed_loop"] = {"error": "it diverged"}
+    assert lost(gate, results, baseline) == [
+        "judged times within steps: 3 in the baseline, none now",
+        "the motion that it drives was judged in the baseline, and is not now"]
+    del results.row("paper")["impacts"]
+    assert len(lost(gate, results, baseline)) == 2

@@ -114,6 +114,14 @@ void add_count(CLI::App& run, RunWords& words) {
 }
 
 // `arguments` must outlive the command.
+void add_resume(CLI::App& run, RunArguments& arguments) {
+  run.add_flag("--resume", arguments.resume,
+               "take over the scenes that an earlier run has finished in --out");
+  run.add_flag("--overwrite", arguments.overwrite,
+               "discard what an interrupted run has finished in --out");
+}
+
+// `arguments` must outlive the command.
 void add_shard(CLI::App& run, RunArguments& arguments) {
   run.add_option_function<std::string>(
          "--shard",
@@ -159,7 +167,7 @@ void add_run(CommandLine& line) {
   run->add_flag("--no-timing", words->no_timing, "judge only");
   run->add_flag("--reduce", arguments.reduce,
                 "make minimal cases of each detector's first wrong answers");
-  run->add_flag("--resume", arguments.resume, "continue an interrupted run in --out");
+  add_resume(*run, arguments);
   add_shard(*run, arguments);
   run->add_flag("--quiet", arguments.quiet, "print no progress and no tables");
   run->add_flag("--explain", arguments.explain, "print what the columns mean; alone: only that");
@@ -202,6 +210,7 @@ void add_reproduce(CommandLine& line) {
       ->add_option("--out", arguments->out,
                    "folder: reproduction.md, reproduction.json, files of run (default out)")
       ->type_name("DIR");
+  add_resume(*reproduce, *arguments);
   reproduce->add_flag("--quiet", arguments->quiet, "print no progress and no table");
   reproduce->footer(
       "Examples:\n"

@@ -46,7 +46,7 @@ void add_init(CommandLine& line) {
   CLI::App* init = line.app.add_subcommand(
       "init", "Writes a folder with scene, detector, policy and CI job to begin with");
   init->add_option("folder", words->folder, "new folder")->required();
-  init->add_option("--language", words->language, "python, c or c++ (default python)")
+  init->add_option("--language", words->language, "python, c, c++ or javascript (default python)")
       ->type_name("NAME");
   init->footer("Example:\n  contactcheck init mine && cd mine");
   choose(*init, line, [words] { return init_command(words->folder, words->language); });

@@ -320,6 +320,7 @@ fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
   run.quiet = true;
   run.finding = std::move(subject.finding);
   run.out = arguments.out;
+  run.keep = false;  // what an interrupted `run` has left there stays
   run.command_line = "contactcheck check" + files + (arguments.between ? " --between" : "") +
                      (arguments.weld ? " --weld" : "") +
                      (arguments.rules.repair ? " --repair" : "");

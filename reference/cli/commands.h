@@ -30,7 +30,8 @@ struct RunArguments : suite::RunTargets {
   std::optional<std::size_t> processes;  ///< passes of every detector; none: see RunSettings
   std::filesystem::path out = "out";
   std::optional<suite::Shard> shard;  ///< run only this part
-  bool timing = true, quiet = false, resume = false;
+  bool timing = true, quiet = false, resume = false, overwrite = false;
+  bool keep = true;          ///< finished scenes, in case the run is interrupted
   bool explain = false;      ///< what the columns mean
   bool reduce = false;       ///< reduce the first wrong answers after the run
   bool json_lines = false;   ///< write events to stdout, and nothing else

@@ -31,8 +31,9 @@ constexpr Language kLanguages[] = {
     {"python", "detector.py", "detector.py", "", "--detector-cmd \"python3 detector.py\""},
     {"c", "detector.c", "detector.c", "cc -O2 -shared -fPIC detector.c -o libdetector.so",
      "--detector ./libdetector.so"},
-    {"c++", "detector.c", "detector.cpp", "c++ -O2 -shared -fPIC detector.cpp -o libdetector.so",
-     "--detector ./libdetector.so"}};
+    {"c++", "detector.cpp", "detector.cpp", "c++ -O2 -shared -fPIC detector.cpp -o libdetector.so",
+     "--detector ./libdetector.so"},
+    {"javascript", "detector.mjs", "detector.mjs", "", "--detector-cmd \"node detector.mjs\""}};
 
 std::string text_of(std::string_view name) {
   for (const InitFile& file : kInitFiles)
@@ -56,7 +57,8 @@ std::string workflow(const Language& language) {
 const Language& language_of(const std::string& name) {
   for (const Language& language : kLanguages)
     if (name == language.name) return language;
-  throw InputError("--language: " + text::in_quotes(name) + " is not one of python, c, c++");
+  throw InputError("--language: " + text::in_quotes(name) +
+                   " is not one of python, c, c++, javascript");
 }
 
 }  // namespace
@@ -85,7 +87,8 @@ int init_command(const fs::path& folder, const std::string& language_name) {
   if (program.has_parent_path()) program = fs::absolute(program).lexically_normal();
   const std::string called = text::in_shell(program.string());
   std::printf(
-      "\nnext:\n  cd %s\n%s  %s run scene.json %s --detector fcl-aabb\n"
+      "\nThe detector compares boxes, which is wrong: the gate is red until it looks closer.\n"
+      "next:\n  cd %s\n%s  %s run scene.json %s --detector fcl-aabb\n"
       "  %s gate out/results.json --policy policy.json\n",
       text::in_shell(folder.string()).c_str(),
       compiled ? ("  " + std::string(language.build) + "\n").c_str() : "", called.c_str(),

@@ -76,6 +76,7 @@ class ReduceCommand {
     const reduce::Defect defect = reduce::find_defect(*probe_, detector_, is_case_, tasks);
     ReducedCase out;
     out.whole = reduce::candidate_of(defect.task.snapshot);
+    out.whole.sides = defect.task.sides;
     std::optional<reduce::Reduction> reduction = reduce_defect(defect, out.whole);
     if (!reduction) refuse_own_lattice(defect);
     out.reduction = std::move(*reduction);
@@ -174,7 +175,7 @@ class ReduceCommand {
                              const reduce::ProbeVerdict& verdict, const reduce::Defect& defect) {
     if (!defect.finding.general) return true;
     const ElementPair& pair = reduce::disagreement_of(verdict, defect.finding).pair;
-    return reduce::in_general_position(candidate, {pair.a, pair.b});
+    return reduce::in_general_position(candidate, {pair.body_a, pair.a}, {pair.body_b, pair.b});
   }
 
   [[noreturn]] void refuse_own_lattice(const reduce::Defect& defect) const {
@@ -188,7 +189,10 @@ class ReduceCommand {
     if (!arguments_.out.empty()) return arguments_.out;
     if (is_case_) return fs::path(arguments_.target).replace_extension(".min.json");
     const std::string name = task.scene + "-" + std::to_string(task.frame) + "-" + detector_;
-    return fs::path("out") / "cases" / (reduce::id_from(name) + ".min.json");
+    // Of a run's recording beside the cases of the run.
+    const fs::path folder = fs::path(arguments_.target).parent_path();
+    const fs::path run = folder.filename() == "recordings" ? folder.parent_path() : fs::path("out");
+    return run / "cases" / (reduce::id_from(name) + ".min.json");
   }
 
   std::string library() const {

@@ -30,6 +30,8 @@
 #include "reference/suite/worker.h"
 #include "reference/text/counted.h"
 #include "reference/text/file_text.h"
+#include "reference/text/json_value.h"
+#include "reference/text/lists.h"
 #include "reference/text/shell_word.h"
 
 namespace contactcheck::cli {
@@ -37,27 +39,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first wrong answer that can be reduced; one of a plug-in before all others. A case names its
-// detector, but for a plug-in the command must load it.
-void print_next(const RunArguments& arguments, const results::Results& results) {
-  const results::Disagreement* next = nullptr;
-  std::string words;
-  for (const results::Disagreement& d : results.disagreements) {
-    if (d.detector == "oracle" || !reduce::can_be_reduced(d.level)) continue;
-    const results::Plugin* const plugin = results.plugin_of(d.detector);
-    if (plugin != nullptr ? plugin->transient : next != nullptr) continue;
-    next = &d;
-    if (plugin == nullptr) continue;
-    words = " " + results::detector_words(results, d.detector);
-    break;
+/// What `reduce` could make small, and what it is.
+struct Reducible {
+  std::string detector, sentence;
+  fs::path target;
+};
+
+// Wrong answers, then errors that ended the judging of a frame: `reduce` asks frames, not steps.
+std::vector<Reducible> reducible(const results::Results& results, const fs::path& out) {
+  std::vector<Reducible> found;
+  for (const results::Disagreement& d : results.disagreements)
+    if (d.detector != "oracle" && reduce::can_be_reduced(d.level))
+      found.push_back({d.detector,
+                       (d.kind == "missed" ? "missed a" : "reported a spurious") +
+                           (" contact in " + d.scene) + ", frame " + std::to_string(d.frame) +
+                           ", level " + d.level,
+                       out / d.case_file});
+  for (const results::Run& run : results.runs) {
+    const fs::path recording = out / "recordings" / (run.scene + ".ccr");
+    if (run.status != results::Status::kError || !run.failed_frame ||
+        any_impact(run.semantics.levels) || run.message.ends_with("(while timed)") ||
+        !fs::exists(recording))
+      continue;
+    const std::string frame = std::to_string(*run.failed_frame);
+    found.push_back({run.detector, "gave no answer in " + run.scene + ", frame " + frame,
+                     recording.string() + "@" + frame});
   }
-  if (next == nullptr) return;
+  return found;
+}
+
+// The first that can be reduced; one of a plug-in before all others. A case names its detector, but
+// for a plug-in the command must load it, and a recording names none.
+void print_next(const RunArguments& arguments, const results::Results& results) {
+  const std::vector<Reducible> all = reducible(results, arguments.out);
+  const auto first = [&](bool of_plugins) {
+    return std::find_if(all.begin(), all.end(), [&](const Reducible& one) {
+      const results::Plugin* const plugin = results.plugin_of(one.detector);
+      return of_plugins ? plugin != nullptr && !plugin->transient : plugin == nullptr;
+    });
+  };
+  auto next = first(true);
+  if (next == all.end()) next = first(false);
+  if (next == all.end()) return;
+  const bool named =
+      results.plugin_of(next->detector) == nullptr && next->target.extension() == ".json";
+  std::string words = named ? "" : " " + results::detector_words(results, next->detector);
+  // Who waits less for an answer need not wait longer for each of many.
+  if (arguments.call_limit < ReduceArguments{}.call_limit)
+    words += " --call-limit " + text::shown(arguments.call_limit);
   // As it was called: after a build it is on no path.
-  std::printf("%s %s contact in %s, frame %zu, level %s\nnext: %s reduce %s%s\n",
-              next->detector.c_str(), next->kind == "missed" ? "missed a" : "reported a spurious",
-              next->scene.c_str(), next->frame, next->level.c_str(),
+  std::printf("%s %s\nnext: %s reduce %s%s\n", next->detector.c_str(), next->sentence.c_str(),
               text::in_shell(program_invocation_name).c_str(),
-              text::in_shell((arguments.out / next->case_file).string()).c_str(), words.c_str());
+              text::in_shell(next->target.string()).c_str(), words.c_str());
 }
 
 void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_reports) {
@@ -70,9 +103,6 @@ void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_rep
   for (const results::Run& run : results.runs)
     if (run.status == results::Status::kAbsent)
       std::printf("absent: %s: %s\n", run.detector.c_str(), run.message.c_str());
-  if (results.resumed)
-    for (const std::string& scene : *results.resumed)
-      std::printf("resumed: %s: finished by an earlier run\n", scene.c_str());
   std::printf("%s%s  %s\n", arguments.quiet ? "" : "\n", (arguments.out / "results.json").c_str(),
               run_and_reports.reports.c_str());
   if (!arguments.quiet && !arguments.reduce) print_next(arguments, results);
@@ -81,20 +111,37 @@ void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_rep
 /// Shows a run's progress to people and to machines.
 class Watcher {
  public:
-  explicit Watcher(const RunArguments& arguments)
-      : display(arguments.quiet, isatty(STDERR_FILENO) != 0), events(arguments.json_lines) {}
+  Watcher(const RunArguments& arguments, std::size_t scenes)
+      : display(arguments.quiet, isatty(STDERR_FILENO) != 0),
+        events(arguments.json_lines),
+        out_(arguments.out),
+        scenes_(scenes) {}
 
   suite::SuiteListener listener() {
-    return {[this](const suite::SuiteProgress& progress) { show(progress); },
-            [this](const suite::SceneEnd& end) {
-              if (events.wanted()) events.print(scene_event(end));
-            }};
+    suite::SuiteListener out;
+    out.resumed = [this](const std::vector<std::string>& ids) { say_resumed(ids); };
+    out.progress = [this](const suite::SuiteProgress& progress) { show(progress); };
+    out.scene_end = [this](const suite::SceneEnd& end) {
+      if (events.wanted()) events.print(scene_event(end));
+    };
+    return out;
   }
 
   ProgressDisplay display;
   EventLines events;
 
  private:
+  // Also where nothing else is said: whoever resumes wants to know that there was something.
+  void say_resumed(const std::vector<std::string>& ids) const {
+    constexpr std::size_t kMost = 5;
+    if (ids.empty())
+      std::fprintf(stderr, "resumed: nothing: no scene of this run is finished in %s\n",
+                   out_.c_str());
+    else
+      std::fprintf(stderr, "resumed: %zu of %s, finished in %s: %s%s\n", ids.size(),
+                   text::counted(scenes_, "scene").c_str(), out_.c_str(),
+                   text::first_joined(ids, kMost).c_str(), ids.size() > kMost ? ", ..." : "");
+  }
   void show(const suite::SuiteProgress& progress) {
     const Clock::time_point now = Clock::now();
     // Scenes that are taken over from an earlier run took no time.
@@ -108,6 +155,8 @@ class Watcher {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start_ = Clock::now();
   std::optional<double> first_share_;
+  fs::path out_;
+  std::size_t scenes_;
 };
 
 // A run records its frames: these alone would take the place of all.
@@ -181,6 +230,8 @@ suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCa
   check_out(arguments.out);
   suite::save_scenes(arguments.save_scene, whole_run(request), request.tasks);
   request.resume = arguments.resume;
+  request.overwrite = arguments.overwrite;
+  request.keep = arguments.keep;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;
@@ -213,7 +264,7 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
   if (of_meshes && !arguments.quiet && !arguments.json_lines)
     for (const std::string& note : scene::mesh_notes(arguments.meshes))
       std::fprintf(stderr, "%s\n", note.c_str());
-  Watcher watcher(arguments);
+  Watcher watcher(arguments, request.tasks.size());
   watcher.events.print(start_event(request));
   results::Results results = suite::run_suite(request, watcher.listener(), outcome);
   watcher.display.finish();

@@ -89,6 +89,7 @@ CaseCandidate with_pieces(const CaseCandidate& candidate, const std::vector<Piec
   CaseCandidate out;
   out.names = candidate.names;
   out.on_nodes = candidate.on_nodes;
+  out.sides = candidate.sides;
   std::vector<std::vector<Triangle>> triangles(candidate.meshes.size());
   for (const Piece& p : pieces)
     triangles[p.mesh].push_back(candidate.meshes[p.mesh].triangles[p.triangle]);
@@ -97,6 +98,15 @@ CaseCandidate with_pieces(const CaseCandidate& candidate, const std::vector<Piec
     drop_unused_vertices(out.meshes.back());
   }
   return out;
+}
+
+CaseCandidate without_mesh(CaseCandidate candidate, std::size_t mesh) {
+  const auto at = static_cast<std::ptrdiff_t>(mesh);
+  candidate.names.erase(candidate.names.begin() + at);
+  candidate.meshes.erase(candidate.meshes.begin() + at);
+  for (std::size_t& side : candidate.sides)
+    if (side > mesh) --side;
+  return candidate;
 }
 
 std::vector<Piece> pieces_of(const CaseCandidate& candidate) {
@@ -129,13 +139,12 @@ std::vector<int> dimensions_of(const CaseCandidate& candidate) {
   return out;
 }
 
-bool in_general_position(const CaseCandidate& candidate, const TrianglePair& pair) {
-  std::array<oracle::TriangleCorners, 2> both;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const TriangleMesh& mesh = candidate.meshes[candidate.mesh_of(side)];
-    both[side] = triangle_corners(mesh, mesh.triangles[pair[side]]);
-  }
-  return off_plane(both[0], both[1]) && off_plane(both[1], both[0]);
+bool in_general_position(const CaseCandidate& candidate, const Piece& first, const Piece& second) {
+  const auto corners = [&](const Piece& piece) {
+    const TriangleMesh& mesh = candidate.meshes[piece.mesh];
+    return triangle_corners(mesh, mesh.triangles[piece.triangle]);
+  };
+  return off_plane(corners(first), corners(second)) && off_plane(corners(second), corners(first));
 }
 
 }  // namespace contactcheck::reduce

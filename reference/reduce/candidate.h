@@ -1,4 +1,5 @@
-// What is reduced: two meshes, or one with self-contact, and how they become a scene of one frame.
+// What is reduced: two meshes or more, or one with self-contact, and how they become a scene of one
+// frame.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +14,13 @@
 
 namespace contactcheck::reduce {
 
-/// One frame of two bodies, or of one, as input of a detector.
+/// One frame of some bodies as input of a detector.
 struct Snapshot {
   std::vector<Body> bodies;
   std::vector<std::vector<Vec3>> nodes;  ///< per body
 };
 
-/// Two meshes, or one, with the vertices at their judged positions.
+/// Meshes with the vertices at their judged positions.
 struct CaseCandidate {
   std::vector<std::string> names;  ///< of the bodies
   std::vector<TriangleMesh> meshes;
@@ -37,8 +38,9 @@ struct CaseCandidate {
     for (const TriangleMesh& mesh : meshes) out += mesh.vertices.size();
     return out;
   }
-  /// The mesh of the first (0) or second (1) triangle of a pair.
-  std::size_t mesh_of(std::size_t side) const { return std::min(side, meshes.size() - 1); }
+  /// The meshes of the first and second triangle of a pair. @pre fewer meshes than two are one
+  std::array<std::size_t, 2> sides = {0, 1};
+  std::size_t mesh_of(std::size_t side) const { return std::min(sides[side], meshes.size() - 1); }
 };
 
 /// @pre every mesh has a triangle, and all coordinates are finite
@@ -52,7 +54,7 @@ using CellPair = std::array<std::uint32_t, 2>;
 
 /// The two cells alone, for detectors that test mapped cells: each body is the 8 nodes of its cell
 /// and one triangle between three of them, on lattice nodes; one candidate for every pair of such
-/// triangles in the faces. @pre both bodies have lattices with these cells
+/// triangles in the faces. @pre there are two bodies, which have lattices with these cells
 std::vector<CaseCandidate> cell_candidates(const Snapshot& snapshot, const CellPair& cells);
 
 /// A triangle of one of the meshes.
@@ -75,11 +77,14 @@ CaseCandidate with_coordinates(CaseCandidate candidate, const std::vector<double
 /// point. Exact.
 std::vector<int> dimensions_of(const CaseCandidate& candidate);
 
-/// Ids of two triangles, of the first and of the last mesh.
+/// The meshes without this one. @pre there are three or more
+CaseCandidate without_mesh(CaseCandidate candidate, std::size_t mesh);
+
+/// Ids of two triangles, of the meshes CaseCandidate::sides.
 using TrianglePair = std::array<std::uint32_t, 2>;
 
 /// True when no corner of either triangle lies in the plane of the other (and both have one): then
 /// a contact of them is a crossing that a small move of any corner does not end. Exact.
-bool in_general_position(const CaseCandidate& candidate, const TrianglePair& pair);
+bool in_general_position(const CaseCandidate& candidate, const Piece& first, const Piece& second);
 
 }  // namespace contactcheck::reduce

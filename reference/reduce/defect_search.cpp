@@ -1,14 +1,19 @@
 #include "reference/reduce/defect_search.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <functional>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include "core/types/check.h"
 #include "reference/reduce/probe_worker.h"
+#include "reference/reduce/reduction.h"
 #include "reference/text/printable.h"
 
 namespace contactcheck::reduce {
@@ -117,10 +122,39 @@ std::vector<Level> levels_of(const ReductionTask& task) {
   return levels;
 }
 
-// The same body twice is one.
-Snapshot two_of(const Snapshot& all, std::size_t a, std::size_t b) {
-  if (a == b) return {{all.bodies[a]}, {all.nodes[a]}};
-  return {{all.bodies[a], all.bodies[b]}, {all.nodes[a], all.nodes[b]}};
+Snapshot only(const Snapshot& all, const std::set<std::size_t>& bodies) {
+  Snapshot out;
+  for (const std::size_t b : bodies) {
+    out.bodies.push_back(all.bodies[b]);
+    out.nodes.push_back(all.nodes[b]);
+  }
+  return out;
+}
+
+using ShowsBodies = std::function<bool(const std::set<std::size_t>&)>;
+
+// `needed` and no more of the others than it takes. @pre all bodies show
+std::set<std::size_t> fewest_bodies(std::size_t count, const std::set<std::size_t>& needed,
+                                    const ShowsBodies& shows) {
+  if (needed.size() == count || (!needed.empty() && shows(needed))) return needed;
+  std::vector<std::size_t> others;
+  for (std::size_t b = 0; b < count; ++b)
+    if (!needed.contains(b)) others.push_back(b);
+  const auto with_needed = [&](const std::vector<std::size_t>& some) {
+    std::set<std::size_t> bodies = needed;
+    bodies.insert(some.begin(), some.end());
+    return bodies;
+  };
+  return with_needed(minimal_subset(
+      others, [&](const auto& some) { return shows(with_needed(some)); }, [] { return true; }));
+}
+
+// An error tells no bodies: two may do, or with self-contact one.
+std::set<std::size_t> bodies_of_error(std::size_t count, bool self, const ShowsBodies& shows) {
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = self ? a : a + 1; b < count; ++b)
+      if (shows({a, b})) return {a, b};
+  return fewest_bodies(count, {}, shows);
 }
 
 [[noreturn]] void refuse_without_finding(const std::vector<ReductionTask>& tasks,
@@ -176,48 +210,60 @@ Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
   for (const ReductionTask& task : tasks) {
     if (task.snapshot.bodies.size() < 2 && !task.self) continue;
     verdict = probe.ask(task.snapshot, levels_of(task));
-    if (const std::optional<Finding> finding = finding_of(verdict, task.level, task.kind)) {
-      found = Defect{task, *finding};
-      break;
+    std::optional<Finding> finding = finding_of(verdict, task.level, task.kind);
+    // Others than the two that a case names may have contributed.
+    const bool needs_others =
+        !finding && task.frame_of_case.bodies.size() > task.snapshot.bodies.size();
+    if (needs_others) {
+      verdict = probe.ask(task.frame_of_case, levels_of(task));
+      finding = finding_of(verdict, task.level, task.kind);
     }
+    if (!finding) continue;
+    found = Defect{task, *finding};
+    if (needs_others) found->task.snapshot = task.frame_of_case;
+    break;
   }
   if (!found) refuse_without_finding(tasks, detector, is_case, verdict);
 
-  Defect& defect = *found;
-  const Snapshot whole = defect.task.snapshot;
-  require_reducible(defect.finding.level);
-  const auto shows_of_two = [&](const Snapshot& two) {
-    const std::vector<Level> levels = levels_for(defect.finding.level, defect.task.self);
-    return shows(probe.ask(two, levels), defect.finding);
+  ReductionTask& task = found->task;
+  Finding& finding = found->finding;
+  require_reducible(finding.level);
+  const Snapshot whole = task.snapshot;
+  const std::size_t count = whole.bodies.size();
+  const auto shows_with = [&](const std::set<std::size_t>& bodies) {
+    if (bodies.size() < 2 && !task.self) return false;
+    return shows(probe.ask(only(whole, bodies), levels_for(finding.level, task.self)), finding);
   };
-  const auto more_bodies = [&] {
-    return InputError(where(defect.task) + ", " + detector + ": " + described(defect.finding) +
-                      " needs more than two of its bodies, and a minimal case has two");
-  };
-  if (defect.finding.kind == "error" && !is_case) {
-    const std::size_t count = whole.bodies.size();
-    for (std::size_t a = 0; a < count; ++a)
-      for (std::size_t b = defect.task.self ? a : a + 1; b < count; ++b) {
-        defect.task.snapshot = two_of(whole, a, b);
-        if (shows_of_two(defect.task.snapshot)) return defect;
-      }
-    throw more_bodies();
+  const bool has_two = is_case && count <= 2;
+  if (finding.kind == "error" && !has_two) {
+    task.snapshot = only(whole, bodies_of_error(count, task.self, shows_with));
+    return *found;
   }
-  if (!is_case) {
-    const judge::Disagreement& shown = disagreement_of(verdict, defect.finding);
-    const auto [a, b] = std::minmax(shown.pair.body_a, shown.pair.body_b);
-    defect.task.snapshot = two_of(whole, a, b);
-    defect.task.pair = triangles_of(shown, whole);
-    defect.task.cells = cells_of(shown);
+  if (!has_two) {
+    std::array<std::size_t, 2> pair = task.named;
+    if (!is_case) {
+      const judge::Disagreement& shown = disagreement_of(verdict, finding);
+      pair = {std::min(shown.pair.body_a, shown.pair.body_b),
+              std::max(shown.pair.body_a, shown.pair.body_b)};
+      task.pair = triangles_of(shown, whole);
+      task.cells = cells_of(shown);
+    }
+    const std::set<std::size_t> bodies = fewest_bodies(count, {pair[0], pair[1]}, shows_with);
+    task.snapshot = only(whole, bodies);
+    for (const std::size_t side : {0, 1})
+      task.sides[side] =
+          static_cast<std::size_t>(std::distance(bodies.begin(), bodies.find(pair[side])));
+    if (bodies.size() > 2) task.cells.reset();  // two cells are two bodies
   }
-  const Finding& finding = defect.finding;
-  if (judge::elements_of(finding.level, finding.kind).first == Element::kTriangle &&
-      defect.task.pair)
-    defect.finding.general =
-        in_general_position(candidate_of(defect.task.snapshot), *defect.task.pair);
-  // With more than two bodies, the others may have contributed.
-  if (!is_case && !shows_of_two(defect.task.snapshot)) throw more_bodies();
-  return defect;
+  if (judge::elements_of(finding.level, finding.kind).first == Element::kTriangle && task.pair) {
+    CaseCandidate candidate = candidate_of(task.snapshot);
+    candidate.sides = task.sides;
+    const auto piece = [&](std::size_t side) {
+      return Piece{static_cast<std::uint32_t>(candidate.mesh_of(side)), (*task.pair)[side]};
+    };
+    finding.general = in_general_position(candidate, piece(0), piece(1));
+  }
+  return *found;
 }
 
 }  // namespace contactcheck::reduce

@@ -1,4 +1,4 @@
-// Finds the frame and the two bodies in which a detector's error is reduced.
+// Finds the frame and the bodies in which a detector's error is reduced.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace contactcheck::reduce {
 
-// Queries a detector about frames of two bodies, one after another, in a separate process. If it
+// Queries a detector about frames of a few bodies, one after another, in a separate process. If it
 // crashes, hangs or exhausts memory, only that process ends, and this is its answer.
 
 struct ProbeSettings {
@@ -60,7 +60,8 @@ class Probe {
   std::size_t asked_ = 0;
 };
 
-/// What is reduced: a frame of two bodies, or of one, in which the detector was seen to err.
+/// What is reduced: a frame in which the detector was seen to err, of two bodies, of one, or where
+/// those alone show nothing, of no more than it takes.
 struct Defect {
   ReductionTask task;
   Finding finding;
@@ -80,7 +81,7 @@ void require_reducible(const std::string& level);
 
 /// Finds the first frame in which the detector (by canonical name) has the wanted error. `is_case`:
 /// the task is a case of an earlier run, which names the bodies.
-/// @throws InputError, one sentence, if there is none, or it needs more than two bodies
+/// @throws InputError, one sentence, if there is none
 Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
                    const std::vector<ReductionTask>& tasks);
 

@@ -220,17 +220,33 @@ std::string crossing_text(const MinimalCase& c, const ElementPair& pair) {
   return out;
 }
 
-/// The line that fails. `your_detector` is what the reader has to write: for a pair of triangles it
-/// is asked for that pair, since one of several pairs of the same bodies can be wrong.
-std::string expectation(const Finding& finding, const CaseAnswers& answers, bool one_mesh,
+/// What a mesh is called in a test: nothing, "first", "second"; one of more than two "body0".
+std::string mesh_name(std::size_t mesh, std::size_t meshes) {
+  if (meshes == 1) return "";
+  return meshes == 2 ? (mesh == 0 ? "first" : "second") : "body" + std::to_string(mesh);
+}
+
+/// The same in front of "vertices" and "triangles".
+std::string prefix(std::size_t mesh, std::size_t meshes) {
+  return meshes == 1 ? "" : mesh_name(mesh, meshes) + "_";
+}
+
+/// The line that fails. `your_detector` is what the reader has to write: of more than two meshes it
+/// is asked for two; for a pair of triangles it is asked for that pair, since one of several pairs
+/// of the same bodies can be wrong.
+std::string expectation(const Finding& finding, const CaseAnswers& answers, std::size_t meshes,
                         TestLanguage language) {
-  std::string call = one_mesh ? "your_detector(vertices, triangles"
-                              : "your_detector(first_vertices, first_triangles, second_vertices, "
-                                "second_triangles";
-  if (answers.triangles)
-    call += ", " + std::to_string(answers.triangles->first) + ", " +
-            std::to_string(answers.triangles->second);
-  call += ")";
+  std::vector<std::string> words;
+  for (std::size_t m = 0; m < meshes; ++m)
+    for (const char* const what : {"vertices", "triangles"})
+      words.push_back(prefix(m, meshes) + what);
+  const auto add = [&](const std::pair<std::uint32_t, std::uint32_t>& pair) {
+    words.push_back(std::to_string(pair.first));
+    words.push_back(std::to_string(pair.second));
+  };
+  if (meshes > 2 && answers.bodies) add(*answers.bodies);
+  if (answers.triangles) add(*answers.triangles);
+  const std::string call = "your_detector(" + text::joined(words) + ")";
   const bool contact = finding.kind == "missed";
   if (language == TestLanguage::kCpp) {
     if (finding.kind == "error") return "EXPECT_NO_THROW(" + call + ");";
@@ -242,16 +258,24 @@ std::string expectation(const Finding& finding, const CaseAnswers& answers, bool
 }
 
 /// What `your_detector` has to tell.
-std::string contract(const Finding& finding, const CaseAnswers& answers, bool one_mesh) {
+std::string contract(const Finding& finding, const CaseAnswers& answers, std::size_t meshes) {
   if (finding.kind == "error") return "your_detector: answers, whatever it says";
-  if (!answers.triangles)
-    return one_mesh ? "your_detector: does it report a contact of the mesh with itself?"
-                    : "your_detector: does it report a contact of the two?";
+  const std::string asked = "your_detector: does it report ";
+  const std::string one = mesh_name(answers.bodies->first, meshes),
+                    other = mesh_name(answers.bodies->second, meshes);
+  const bool same = answers.bodies->first == answers.bodies->second;
+  if (!answers.triangles) {
+    if (meshes > 2)
+      return asked + "a contact of " + one + (same ? " with itself?" : " and " + other + "?");
+    return asked + (same ? "a contact of the mesh with itself?" : "a contact of the two?");
+  }
   const std::string first = std::to_string(answers.triangles->first),
                     second = std::to_string(answers.triangles->second);
-  return one_mesh ? "your_detector: does it report triangles " + first + " and " + second + "?"
-                  : "your_detector: does it report triangle " + first + " of first with triangle " +
-                        second + " of second?";
+  if (same)
+    return asked + "triangles " + first + " and " + second +
+           (meshes > 2 ? " of " + one + "?" : "?");
+  return asked + "triangle " + first + " of " + one + " with triangle " + second + " of " + other +
+         "?";
 }
 
 }  // namespace
@@ -272,6 +296,7 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
   out.detector = text::counted(counts.reported, "pair") + " at level " + d.level + " of " +
                  std::to_string(counts.truth) + " true: " + std::to_string(counts.missed) +
                  " missed, " + std::to_string(counts.spurious) + " spurious";
+  out.bodies = {d.pair.body_a, d.pair.body_b};
   if (judge::elements_of(d.level, d.kind).first == Element::kTriangle)
     out.triangles = {d.pair.a, d.pair.b};
   return out;
@@ -288,19 +313,20 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestL
           ? "#include <assert.h>\nvoid " + function + "(void) {\n"
           : "TEST(" + camel_case(c.detector) + ", " + camel_case(words) + ") {\n";
   const std::vector<std::string>& names = c.candidate.names;
-  const bool one_mesh = names.size() == 1;
-  const std::string whose =
-      one_mesh || names[0] == "first"
-          ? ""
-          : indent + comment + "first is " + names[0] + ", second is " + names[1] + ".\n";
-  std::string meshes = mesh_text(c.candidate.meshes[0], one_mesh ? "" : "first_", language);
-  if (!one_mesh) meshes += mesh_text(c.candidate.meshes[1], "second_", language);
+  const std::size_t count = names.size();
+  std::vector<std::string> whose;  // where the names of the test are not the scene's
+  std::string meshes;
+  for (std::size_t m = 0; m < count; ++m) {
+    if (count > 1 && names[0] != "first") whose.push_back(mesh_name(m, count) + " is " + names[m]);
+    meshes += mesh_text(c.candidate.meshes[m], prefix(m, count), language);
+  }
   return comment + c.detector + (c.library.empty() ? "" : " (" + c.library + ")") + ": " +
-         described(c.finding) + ". From " + c.scene + ", " + c.place + ".\n" + head + whose +
-         meshes + indent + comment + "Exact: " + answers.exact + ".\n" + indent + comment +
-         c.detector + " answered: " + answers.detector + ".\n" + indent + comment +
-         contract(c.finding, answers, one_mesh) + "\n" + indent +
-         expectation(c.finding, answers, one_mesh, language) + "\n" +
+         described(c.finding) + ". From " + c.scene + ", " + c.place + ".\n" + head +
+         (whose.empty() ? "" : indent + comment + text::joined(whose) + ".\n") + meshes + indent +
+         comment + "Exact: " + answers.exact + ".\n" + indent + comment + c.detector +
+         " answered: " + answers.detector + ".\n" + indent + comment +
+         contract(c.finding, answers, count) + "\n" + indent +
+         expectation(c.finding, answers, count, language) + "\n" +
          (python ? "\n\nif __name__ == \"__main__\":\n    " + function + "()\n" : "}\n");
 }
 

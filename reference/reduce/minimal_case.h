@@ -39,7 +39,9 @@ std::string id_from(const std::string& words);
 /// What is exactly true of the case and what the detector answered, one sentence each.
 struct CaseAnswers {
   std::string exact, detector;
-  /// Triangles of the first and second body, if the wrong answer is about a pair of triangles.
+  /// The two bodies that a wrong answer is about; none of an error.
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> bodies = {};
+  /// Their triangles, if it is about a pair of triangles.
   std::optional<std::pair<std::uint32_t, std::uint32_t>> triangles = {};
 };
 CaseAnswers answers_of(const MinimalCase& minimal, const ProbeVerdict& verdict);
@@ -50,7 +52,7 @@ enum class TestLanguage {
   kPython,  ///< nested lists of floats and integers, for pytest
 };
 
-/// A test: the vertices and triangles of both meshes bit for bit, what was answered, and the
+/// A test: the vertices and triangles of all meshes bit for bit, what was answered, and the
 /// assertion, of a function `your_detector` that the reader writes.
 std::string printed_test(const MinimalCase& minimal, const CaseAnswers& answers,
                          TestLanguage language);

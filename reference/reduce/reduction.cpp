@@ -113,7 +113,7 @@ Vec3 centre(const TriangleMesh& mesh, std::uint32_t triangle) {
 }
 
 /// Round each triangle of `pair` the `count` of its mesh whose centres lie nearest to its own,
-/// which comes first among equals; in the order of the mesh.
+/// which comes first among equals; in the order of the mesh. Other meshes stay whole.
 CaseCandidate surroundings_of(const CaseCandidate& whole, const TrianglePair& pair,
                               std::size_t count) {
   std::vector<std::set<std::uint32_t>> nearest(whole.meshes.size());
@@ -128,9 +128,17 @@ CaseCandidate surroundings_of(const CaseCandidate& whole, const TrianglePair& pa
       nearest[whole.mesh_of(side)].insert(by_distance[i].second);
   }
   std::vector<Piece> pieces;
-  for (std::uint32_t m = 0; m < nearest.size(); ++m)
-    for (const std::uint32_t t : nearest[m]) pieces.push_back({m, t});
+  for (const Piece& piece : pieces_of(whole)) {
+    const bool of_pair = piece.mesh == whole.mesh_of(0) || piece.mesh == whole.mesh_of(1);
+    if (!of_pair || nearest[piece.mesh].contains(piece.triangle)) pieces.push_back(piece);
+  }
   return with_pieces(whole, pieces);
+}
+
+CaseCandidate with_fewer_meshes(CaseCandidate now, Questions& shows) {
+  for (std::size_t m = now.meshes.size(); m-- > 0 && now.meshes.size() > 2;)
+    if (CaseCandidate fewer = without_mesh(now, m); shows(fewer)) now = std::move(fewer);
+  return now;
 }
 
 CaseCandidate with_fewer_triangles(const CaseCandidate& now, Questions& shows) {
@@ -177,8 +185,8 @@ std::optional<Reduction> reduce(const CaseCandidate& whole, const std::optional<
       if (!start && questions(candidate)) start = candidate;
     }
   };
-  const std::size_t largest =
-      std::max(whole.meshes.front().triangles.size(), whole.meshes.back().triangles.size());
+  const std::size_t largest = std::max(whole.meshes[whole.mesh_of(0)].triangles.size(),
+                                       whole.meshes[whole.mesh_of(1)].triangles.size());
   for (std::size_t n = 1; !start && pair && n < largest; n *= kGrowth)
     try_start(surroundings_of(whole, *pair, n));
   try_start(whole);
@@ -187,7 +195,7 @@ std::optional<Reduction> reduce(const CaseCandidate& whole, const std::optional<
   CaseCandidate now = *start;
   while (true) {
     const std::size_t triangles = now.triangles();
-    now = with_fewer_triangles(now, questions);
+    now = with_fewer_triangles(with_fewer_meshes(std::move(now), questions), questions);
     const std::vector<double> before = coordinates_of(now);
     now = with_simpler_numbers(now, questions);
     const bool changed = now.triangles() < triangles || coordinates_of(now) != before;

@@ -1,4 +1,4 @@
-// From the frame of two bodies in which a detector errs to the fewest triangles and the simplest
+// From the frame of a few bodies in which a detector errs to the fewest triangles and the simplest
 // numbers with which it errs in the same way.
 #pragma once
 
@@ -36,9 +36,9 @@ struct Reduction {
 
 /// Tries `cells` (the cells of a disagreement alone), then the pair alone, then ever larger
 /// surroundings of it, then the whole meshes, each without a lattice and with its vertices as
-/// lattice nodes; leaves out triangles until none can go (delta debugging), then makes numbers
-/// simpler, and both again until nothing changes. Triangles keep their dimension. The same input
-/// and answers give the same result.
+/// lattice nodes; leaves out meshes, while more than two are left, and triangles until none can go
+/// (delta debugging), then makes numbers simpler, and all again until nothing changes. Triangles
+/// keep their dimension. The same input and answers give the same result.
 ///
 /// `shows` is asked `budget` times at most. Nothing when no start shows: then it takes the lattice
 /// or the rest shape of the scene. @pre without `pair` the defect has no triangles of its own

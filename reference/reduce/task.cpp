@@ -112,6 +112,8 @@ void take_bodies(const text::JsonField& root, const Recording& recording, Reduct
     task.snapshot.bodies.push_back(recording.bodies[b]);
     task.snapshot.nodes.push_back(recording.frames[task.frame][b]);
   }
+  task.frame_of_case = {recording.bodies, recording.frames[task.frame]};
+  task.named = {first.body(), second.body()};
   const std::optional<std::uint32_t> a = first.triangle(), b = second.triangle();
   if (a && b) task.pair = TrianglePair{*a, *b};
   const std::optional<std::uint32_t> c = first.cell(), d = second.cell();

@@ -1,6 +1,8 @@
 // The input of `contactcheck reduce`: a case file of a run, or a scene with a detector.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,13 +17,16 @@ namespace contactcheck::reduce {
 struct ReductionTask {
   std::string scene;  ///< id
   std::size_t frame = 0;
-  std::string place;                 ///< "frame 3", "value 1e-9 (frame 3)": as a message names it
-  std::string detector;              ///< as it was named; empty: none was
-  std::string level, kind;           ///< empty: whatever is found
-  Snapshot snapshot;                 ///< of all bodies, or of those that a case names
+  std::string place;        ///< "frame 3", "value 1e-9 (frame 3)": as a message names it
+  std::string detector;     ///< as it was named; empty: none was
+  std::string level, kind;  ///< empty: whatever is found
+  Snapshot snapshot;        ///< of all bodies, or of those that a case names
+  Snapshot frame_of_case;   ///< all bodies of a case's recording; empty without one
+  std::array<std::size_t, 2> named = {0, 1};  ///< the bodies that a case names, in that frame
   bool self = false;                 ///< the scene asks for contacts of bodies with themselves
-  std::optional<TrianglePair> pair;  ///< the triangles of a case
-  std::optional<CellPair> cells;     ///< the cells of a case
+  std::optional<TrianglePair> pair;  ///< the triangles of a case, of the bodies `sides`
+  std::array<std::size_t, 2> sides = {0, 1};  ///< in `snapshot`
+  std::optional<CellPair> cells;              ///< the cells of a case
 };
 
 /// The triangles of a disagreement, that of the first of its two bodies first: a pair of triangles,

@@ -14,8 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // The flags of `run` without a value.
-constexpr const char* kWithoutValue[] = {"--no-timing", "--reduce",     "--resume",     "--quiet",
-                                         "--explain",   "--json-lines", "--closed-loop"};
+constexpr const char* kWithoutValue[] = {"--no-timing",  "--reduce",     "--resume",
+                                         "--overwrite",  "--quiet",      "--explain",
+                                         "--json-lines", "--closed-loop"};
 
 /// A command's flags with their values, and words without a flag.
 std::vector<std::pair<std::string, std::string>> flags_of(const std::string& command) {

@@ -431,6 +431,8 @@ struct Results {
   std::vector<ScaleRange> known_ranges;
   std::vector<MeasuredGoal> goals;
   std::optional<std::vector<std::string>> resumed;
+  /// By scene, what `run --resume` knows it again by; empty in a baseline.
+  Texts identities;
   std::optional<Shard> shard;
   std::vector<std::string> merged;
   std::optional<Finding> finding;

@@ -342,8 +342,8 @@ void fields(Io& io, Results& r) {
   CONTACTCHECK_FIELDS(io, r, version, command, machine, libraries);
   CONTACTCHECK_FIELDS(io.unless_empty, r, plugins, timing);
   CONTACTCHECK_FIELDS(io, r, scenes, runs, disagreements);
-  CONTACTCHECK_FIELDS(io.unless_empty, r, known_defects, known_ranges, goals, resumed, shard,
-                      merged, finding);
+  CONTACTCHECK_FIELDS(io.unless_empty, r, known_defects, known_ranges, goals, resumed, identities,
+                      shard, merged, finding);
 }
 
 Results from_json(const nlohmann::ordered_json& json) {

@@ -92,6 +92,12 @@ void move_cases(const fs::path& out, const std::vector<fs::path>& files) {
   for (std::size_t i = 0; i < files.size(); ++i) rename_file(files[i], out / case_name(i + 1));
 }
 
+void copy_file_to(const fs::path& file, const fs::path& target) {
+  std::error_code error;
+  fs::copy_file(file, target, fs::copy_options::overwrite_existing, error);
+  if (error) throw InputError("cannot write \"" + target.string() + "\": " + error.message());
+}
+
 void rename_file(const fs::path& file, const fs::path& target) {
   std::error_code error;
   fs::rename(file, target, error);

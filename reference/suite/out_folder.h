@@ -42,6 +42,9 @@ void remove_old_cases(const std::filesystem::path& out);
 std::vector<std::filesystem::path> number_cases(std::vector<results::Disagreement>& disagreements);
 void move_cases(const std::filesystem::path& out, const std::vector<std::filesystem::path>& files);
 
+/// Replaces a file that is there. @throws InputError when it cannot be
+void copy_file_to(const std::filesystem::path& file, const std::filesystem::path& target);
+
 /// @throws InputError when it cannot be
 void rename_file(const std::filesystem::path& file, const std::filesystem::path& target);
 

@@ -1,5 +1,8 @@
 #include "reference/suite/run_identity.h"
 
+#include <algorithm>
+#include <sstream>
+
 #include "core/types/hash.h"
 #include "reference/adapters/register.h"
 #include "reference/results/results.h"
@@ -67,6 +70,26 @@ std::string RunIdentity::of(const SceneTask& task) const {
   for (const std::string& name : task.detectors) identity += line("detector", name);
   for (const std::string& name : task.references) identity += line("reference", name);
   return identity;
+}
+
+std::vector<std::string> differences(const std::string& one, const std::string& other) {
+  const auto lines_of = [](const std::string& identity) {
+    std::istringstream text(identity);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+  };
+  const std::vector<std::string> lines[2] = {lines_of(one), lines_of(other)};
+  std::vector<std::string> out;
+  for (const int side : {0, 1})
+    for (const std::string& line : lines[side]) {
+      const auto& others = lines[1 - side];
+      const std::string name = line.substr(0, line.find(": "));
+      if (std::find(others.begin(), others.end(), line) == others.end() &&
+          std::find(out.begin(), out.end(), name) == out.end())
+        out.push_back(name);
+    }
+  return out;
 }
 
 }  // namespace contactcheck::suite

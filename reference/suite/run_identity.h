@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "reference/scene/scene.h"
 #include "reference/suite/suite_request.h"
@@ -24,11 +25,14 @@ class RunIdentity {
  public:
   /// @throws InputError when the program's file cannot be read
   explicit RunIdentity(const SuiteRequest& request);
-  /// The same text for the same results.
+  /// The same text for the same results: lines "NAME: VALUE".
   std::string of(const SceneTask& task) const;
 
  private:
   std::string common_;
 };
+
+/// The names of lines that one of two identities has and the other has not, each once.
+std::vector<std::string> differences(const std::string& one, const std::string& other);
 
 }  // namespace contactcheck::suite

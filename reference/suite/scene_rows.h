@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "reference/suite/finished_scene.h"
 #include "reference/suite/job.h"
-#include "reference/suite/partial_results.h"
 #include "reference/suite/suite_request.h"
 #include "reference/suite/supervisor.h"
 

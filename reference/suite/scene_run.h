@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "reference/suite/partial_results.h"
+#include "reference/suite/finished_scene.h"
 #include "reference/suite/suite_request.h"
 #include "reference/suite/supervisor.h"
 

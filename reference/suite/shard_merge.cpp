@@ -7,6 +7,7 @@
 
 #include "core/types/check.h"
 #include "reference/judge/contacts_json.h"
+#include "reference/suite/finished_scene.h"
 #include "reference/suite/job.h"
 #include "reference/suite/out_folder.h"
 #include "reference/suite/run_identity.h"
@@ -197,12 +198,6 @@ std::vector<ShardResults> checked_shards(std::vector<ShardResults> shards) {
 
 namespace {
 
-void copy_file_to(const fs::path& file, const fs::path& target) {
-  std::error_code error;
-  fs::copy_file(file, target, fs::copy_options::overwrite_existing, error);
-  if (error) throw InputError("cannot write \"" + target.string() + "\": " + error.message());
-}
-
 class Merger {
  public:
   Merger(const std::vector<ShardResults>& shards, const fs::path& out, const fs::path& scratch)
@@ -222,11 +217,15 @@ class Merger {
     for (const ShardResults& shard : shards_) {
       whole.merged.push_back(shard.results.command);
       if (shard.results.resumed) whole.resumed.emplace();
+      whole.identities.insert(shard.results.identities.begin(), shard.results.identities.end());
     }
     const std::vector<results::ShardScene>& run = first.shard->scenes;
     for (std::size_t i = 0; i < run.size(); ++i) {
       const ShardResults& shard = shards_[i % shards_.size()];
-      output_.add(scene_of(shard, rows_[i % shards_.size()], run[i].id));
+      FinishedScene scene =
+          finished_scene(rows_[i % shards_.size()], run[i].id, shard.folder(), scratch_);
+      copy_recording(shard, scene.runs);
+      output_.add(std::move(scene));
       if (shard.results.resumed && holds(*shard.results.resumed, run[i].id))
         whole.resumed->push_back(run[i].id);
     }
@@ -236,28 +235,6 @@ class Merger {
  private:
   static bool holds(const std::vector<std::string>& ids, const std::string& id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
-  }
-
-  FinishedScene scene_of(const ShardResults& shard, const results::Index& rows,
-                         const std::string& id) {
-    FinishedScene finished;
-    finished.scene = *rows.scene(id);
-    for (const results::Run* run : rows.runs_of(id)) finished.runs.push_back(*run);
-    for (const results::Disagreement& disagreement : shard.results.disagreements)
-      if (disagreement.scene == id)
-        finished.disagreements.push_back(with_case(shard, disagreement));
-    if (!finished.scene.contacts.empty())
-      finished.contacts = read_text_file(shard.folder() / finished.scene.contacts);
-    copy_recording(shard, finished.runs);
-    return finished;
-  }
-
-  // A copy of its case file, for the output to move.
-  results::Disagreement with_case(const ShardResults& shard, results::Disagreement disagreement) {
-    const fs::path copy = scratch_ / ("merged" + std::to_string(cases_++));
-    copy_file_to(shard.folder() / disagreement.case_file, copy);
-    disagreement.case_file = copy.string();
-    return disagreement;
   }
 
   void copy_recording(const ShardResults& shard, const std::vector<results::Run>& runs) const {
@@ -273,7 +250,6 @@ class Merger {
   std::vector<results::Index> rows_;  ///< by shard
   fs::path out_, scratch_;
   SuiteOutput output_;
-  std::size_t cases_ = 0;
 };
 
 }  // namespace

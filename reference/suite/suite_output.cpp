@@ -83,8 +83,11 @@ Results SuiteOutput::write(Results results, const std::vector<results::Goal>& go
       files[results.disagreements[i].case_file] = cases[i];
     results.shard->files = file_hashes(files);
   }
-  // All is on disk before anything of an earlier run goes: from here on there are only renames.
+  // All is on disk before anything of an earlier run goes: from here on there are only renames. Its
+  // results.json goes first: with the cases of this run it would name others than its own.
   write_file_atomically(scratch_ / "results.json", results::to_json(results).dump(1) + "\n");
+  std::error_code ignored;
+  fs::remove(out_ / "results.json", ignored);
   remove_old_cases(out_);
   move_cases(out_, cases);
   move_contacts(out_, scratch_, results.scenes);

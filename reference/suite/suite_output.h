@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "reference/results/results.h"
-#include "reference/suite/partial_results.h"
+#include "reference/suite/finished_scene.h"
 #include "reference/suite/suite_request.h"
 
 namespace contactcheck::suite {

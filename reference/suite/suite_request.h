@@ -43,8 +43,12 @@ struct SuiteRequest {
   std::vector<results::Plugin> plugins;     ///< for the record
   std::optional<results::Finding> finding;  ///< for the record
   results::KnownDefects known_defects;      ///< what wrong answers are set beside
-  /// Take over the scenes that an interrupted run has left finished in `out` (see PartialResults).
+  /// Take over the scenes that an earlier run has finished in `out` (see PartialResults).
   bool resume = false;
+  /// Discard the finished scenes of an interrupted run that this one does not take over.
+  bool overwrite = false;
+  /// Keep finished scenes in case this run is interrupted; without, those of others are left alone.
+  bool keep = true;
   std::optional<ShardOfRun> shard = {};  ///< then `tasks` are those that it holds
 };
 
@@ -66,6 +70,9 @@ struct SceneEnd {
 
 /// What a run tells while it works.
 struct SuiteListener {
+  /// Before the first scene of a run that resumes: the scenes that it takes over.
+  std::function<void(const std::vector<std::string>& ids)> resumed =
+      [](const std::vector<std::string>&) {};
   /// At the start of a scene that is run, and a few times per second.
   std::function<void(const SuiteProgress&)> progress = [](const SuiteProgress&) {};
   std::function<void(const SceneEnd&)> scene_end = [](const SceneEnd&) {};

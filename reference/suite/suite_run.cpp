@@ -1,5 +1,10 @@
 #include "reference/suite/suite_run.h"
 
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/types/check.h"
 #include "reference/adapters/register.h"
 #include "reference/results/results.h"
 #include "reference/suite/machine.h"
@@ -9,6 +14,8 @@
 #include "reference/suite/scene_run.h"
 #include "reference/suite/shard_record.h"
 #include "reference/suite/suite_output.h"
+#include "reference/text/counted.h"
+#include "reference/text/lists.h"
 #include "reference/timing/cache_sweep.h"
 
 namespace contactcheck::suite {
@@ -32,6 +39,40 @@ results::Results record_of(const SuiteRequest& request) {
   return record;
 }
 
+std::string named(const std::vector<std::string>& ids) {
+  constexpr std::size_t kMost = 5;
+  return text::first_joined(ids, kMost) +
+         (ids.size() > kMost ? " and " + std::to_string(ids.size() - kMost) + " more" : "");
+}
+
+// Refuses to lose work: what an interrupted run has finished and this one does not take over.
+void require_nothing_lost(const SuiteRequest& request, const RunIdentity& identity,
+                          const std::vector<KeptScene>& kept) {
+  std::vector<std::string> same, other;
+  std::set<std::string> why;
+  std::string command;
+  for (const KeptScene& scene : kept) {
+    const auto task = std::find_if(request.tasks.begin(), request.tasks.end(),
+                                   [&](const SceneTask& t) { return t.id == scene.id; });
+    const std::vector<std::string> changed = task == request.tasks.end()
+                                                 ? std::vector<std::string>{"scenes"}
+                                                 : differences(scene.identity, identity.of(*task));
+    (changed.empty() ? same : other).push_back(scene.id);
+    if (!changed.empty()) command = scene.command;
+    why.insert(changed.begin(), changed.end());
+  }
+  const std::string left = "--out " + request.out.string() + ": an interrupted run has left " +
+                           text::counted(kept.size(), "finished scene") + " there";
+  if (!other.empty())
+    throw InputError(left + ", of which " + named(other) + " " +
+                     (other.size() == 1 ? "is" : "are") + " of another run (other " +
+                     text::joined(why, [](const std::string& name) { return name; }) +
+                     "): " + command + "; --overwrite discards them, another --out keeps them");
+  if (!request.resume && !same.empty())
+    throw InputError(left + " (" + named(same) +
+                     "): --resume takes them over, --overwrite discards them");
+}
+
 }  // namespace
 
 results::Results run_suite(const SuiteRequest& request, const SuiteListener& listener,
@@ -39,11 +80,22 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
   make_out_folders(request.out);
   const ScratchFolder scratch(fs::absolute(request.out));
   make_contacts_folder(scratch.path());
-  const PartialResults partial(request.out, scratch.path());
-  if (!request.resume) partial.clear();
+  PartialResults partial(request.out, scratch.path());
   const RunIdentity identity(request);
-  SuiteOutput output(request.out, scratch.path());
+  if (request.keep && !request.overwrite) require_nothing_lost(request, identity, partial.kept());
+  std::map<std::string, FinishedScene> earlier;
   results::Results record = record_of(request);
+  if (request.resume) {
+    for (const SceneTask& task : request.tasks)
+      if (auto scene = partial.take({task.id, identity.of(task), request.command})) {
+        earlier.emplace(task.id, std::move(*scene));
+        record.resumed->push_back(task.id);
+      }
+    listener.resumed(*record.resumed);
+  } else if (request.keep) {
+    partial.clear();
+  }
+  SuiteOutput output(request.out, scratch.path());
   SuiteProgress progress;
   progress.scenes = request.tasks.size();
   for (; progress.scene < request.tasks.size(); ++progress.scene) {
@@ -57,23 +109,23 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
                        static_cast<double>(progress.scenes);
       listener.progress(progress);
     };
-    std::optional<FinishedScene> finished;
-    if (request.resume) finished = partial.take(task.id, identity.of(task));
-    const bool resumed_now = finished.has_value();
+    const auto found = earlier.find(task.id);
+    const bool resumed_now = found != earlier.end();
+    FinishedScene finished;
     if (resumed_now) {
-      record.resumed->push_back(task.id);
+      finished = std::move(found->second);
     } else {
-      partial.drop(task.id);  // its recording will be replaced
       report({});
       finished = run_scene(request, task, scratch.path(), listener, report);
-      partial.keep(task.id, identity.of(task), *finished);
+      if (request.keep) partial.keep({task.id, identity.of(task), request.command}, finished);
     }
-    listener.scene_end({task.id, resumed_now, finished->runs});
-    output.add(std::move(*finished));
+    record.identities[task.id] = identity_hash(identity.of(task), finished, request.out);
+    listener.scene_end({task.id, resumed_now, finished.runs});
+    output.add(std::move(finished));
   }
   results::Results results =
       output.write(std::move(record), request.goals, request.known_defects, outcome);
-  partial.clear();
+  if (request.keep) partial.clear();
   return results;
 }
 

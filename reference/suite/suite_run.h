@@ -8,7 +8,8 @@ namespace contactcheck::suite {
 
 /// Writes out/results.json, out/recordings/, out/contacts/ and out/cases/, and until results.json
 /// is complete out/partial/. Returns the results as written.
-/// @throws InputError for bad scenes or an unwritable folder
+/// @throws InputError for bad scenes, an unwritable folder, or scenes that an interrupted run has
+/// finished there and that would be lost (SuiteRequest::overwrite)
 results::Results run_suite(const SuiteRequest& request, const SuiteListener& listener,
                            SuiteOutcome* outcome);
 

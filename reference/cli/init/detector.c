@@ -1,6 +1,7 @@
-/* A beginning: two bodies touch where their boxes do. To answer with pairs of triangles, add
- * CONTACTCHECK_LEVEL_TRIANGLE and the question CONTACTCHECK_ASK_TRIANGLES in declare(), and give
- * the pairs to answer->triangles. What each function is for: contactcheck_plugin.h. */
+/* A beginning that is wrong: it says that two bodies touch where their boxes do. To answer with pairs
+ * of triangles, add CONTACTCHECK_LEVEL_TRIANGLE and the question CONTACTCHECK_ASK_TRIANGLES in
+ * declare(), and give the pairs to answer->triangles. What each function is for:
+ * contactcheck_plugin.h. */
 #include "contactcheck_plugin.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
-# A beginning: two bodies touch where their boxes do. To answer with pairs of triangles, declare
-# "levels": ["body", "triangle"] and "questions": ["triangles", "body"]. A query then has
-# line["question"]; the answer to "triangles" is {"message": "contacts", "triangles": N}, followed
-# by N times four numbers: body a, body b (a below b), triangle of a, triangle of b.
+# A beginning that is wrong: it says that two bodies touch where their boxes do. To answer with pairs
+# of triangles, declare "levels": ["body", "triangle"] and "questions": ["triangles", "body"]. A query
+# then has line["question"]; the answer to "triangles" is {"message": "contacts", "triangles": N},
+# followed by N times four numbers: body a, body b (a below b), triangle of a, triangle of b.
 import array, io, json, sys
 
 def write(line, numbers=array.array("I")):

@@ -90,9 +90,7 @@ std::vector<std::string> part_sentences(const results::Results& results) {
   // Their times are of another process than the others'.
   if (!resumed.empty())
     out.push_back(fmt::format(
-        "Taken over from an earlier run that was interrupted (`--resume`), with the times measured "
-        "then: {}.",
-        resumed));
+        "Taken over from an earlier run (`--resume`), with the times measured then: {}.", resumed));
   return out;
 }
 

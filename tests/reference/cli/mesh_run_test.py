@@ -84,15 +84,16 @@ def test_resumes_only_with_the_same_meshes(folder):
             program.send(signal.SIGKILL)
             assert program.outcome().exit_code == 128 + signal.SIGKILL
 
-    def resumed():
-        successful(*command(folder, "--resume"))
+    def resumed(*more):
+        successful(*command(folder, "--resume", *more))
         return results(folder)["resumed"]
 
     interrupt_after_the_meshes()
     assert resumed() == ["ball-cube-approach"]
     interrupt_after_the_meshes()
     write_ball(folder, levels=2)
-    assert resumed() == []
+    assert contactcheck(*command(folder, "--resume")).exit_code == 2
+    assert resumed("--overwrite") == []
 
 
 @pytest.mark.parametrize("size, metres", [("file", 4), ("0.125", 0.125)])

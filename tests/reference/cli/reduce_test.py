@@ -3,6 +3,7 @@ detectors of known defects is tests/faults/reduce_test.cpp.
 """
 
 import json
+import shlex
 
 import pytest
 
@@ -72,6 +73,67 @@ def test_of_a_family_may_be_the_named_value(tmp_path):
                            tmp_path / "least.json")
     assert outcome.exit_code == 2
     assert "nothing is missed in the answer of fcl-obbrss" in outcome.err
+
+
+# The detector of `init`, whose answer is made wrong where more than one pair of boxes meets.
+WRONG = """
+source = open({detector!r}, encoding="utf-8").read()
+old = '        write({{"message": "contacts"'
+assert old in source
+exec(source.replace(old, "        if len(found) > 1: {wrong}\\n" + old))
+"""
+
+
+@pytest.fixture
+def row_of_boxes(tmp_path):
+    """Frames of five boxes, in whose last three meet; a function that runs a detector on them, which does
+    `wrong` there, and gives what is printed as `next:`."""
+    successful("init", tmp_path / "mine")
+    scene = {"id": "row", "title": "Two boxes come to a third", "frames": 3, "duration": 1,
+             "levels": ["body", "triangle"], "bodies": []}
+    for name, at in (("far", 9), ("middle", 0), ("left", [[0, [2.9, 0.1, 0.2]], [0.6, [0.5, 0.1, 0.2]]]),
+                     ("farther", -9), ("right", [[0, [-2.9, 0.1, 0.2]], [0.6, [-0.6, 0.1, 0.2]]])):
+        scene["bodies"].append({"name": name, "mesh": {"shape": "box"},
+                                "motion": {"position": at if isinstance(at, list) else [at, 0, 0]}})
+    (tmp_path / "row.json").write_text(json.dumps(scene), encoding="utf-8")
+
+    def next_of(wrong, *words):
+        (tmp_path / "wrong.py").write_text(
+            WRONG.format(detector=str(tmp_path / "mine" / "detector.py"), wrong=wrong), encoding="utf-8")
+        run = contactcheck("run", "row.json", "--detector-cmd", "python3 wrong.py", "--no-timing", *words,
+                           cwd=tmp_path)
+        [line] = [line for line in run.out.splitlines() if line.startswith("next: ")]
+        return shlex.split(line)[2:]
+
+    return next_of
+
+
+def test_error_that_needs_three_bodies_has_three(tmp_path, row_of_boxes):
+    words = row_of_boxes("del found[1:]")
+    outcome = successful(*words, cwd=tmp_path)
+    assert "row, frame 2: mine missed at level body" in outcome.err
+    assert "body0 is middle, body1 is left, body2 is right." in outcome.out
+    assert ("your_detector(body0_vertices, body0_triangles, body1_vertices, body1_triangles, body2_vertices, "
+            "body2_triangles, 0, 2)") in outcome.out
+    least = json.loads((tmp_path / "out/cases/0001.min.json").read_text(encoding="utf-8"))
+    assert [len(body["mesh"]["triangles"]) for body in least["bodies"]] == [1, 1, 1]
+    again = successful("run", "out/cases/0001.min.json", *words[2:], "--no-timing", "--out", "again", cwd=tmp_path)
+    assert "mine missed a contact" in again.out
+
+
+def test_crash_of_ones_own_detector_is_what_is_next(tmp_path, row_of_boxes):
+    words = row_of_boxes("__import__('os').kill(__import__('os').getpid(), 11)")
+    assert words[:2] == ["reduce", "out/recordings/row.ccr@2"]
+    outcome = successful(*words, cwd=tmp_path)
+    assert "mine answered: error: threw: the command ended with signal 11 (Segmentation fault)." in outcome.out
+    least = json.loads((tmp_path / "out/cases/row-2-mine.min.json").read_text(encoding="utf-8"))
+    assert [body["name"] for body in least["bodies"]] == ["middle", "left", "right"]
+
+
+def test_hang_of_ones_own_detector_is_what_is_next_with_its_limit(row_of_boxes):
+    words = row_of_boxes("__import__('time').sleep(1000)", "--call-limit", "0.5")
+    assert words == ["reduce", "out/recordings/row.ccr@2", "--detector-cmd", "python3 wrong.py", "--call-limit",
+                     "0.5"]
 
 
 @pytest.mark.parametrize(("text", "named"), [

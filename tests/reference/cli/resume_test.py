@@ -1,4 +1,5 @@
-"""Runs that are killed: what they leave unchanged, and what `run --resume` takes over."""
+"""Runs that are killed: what they leave unchanged, what `run --resume` takes over, and what is not
+discarded without `--overwrite`."""
 
 import json
 import shutil
@@ -68,8 +69,29 @@ def expect_run_again(folder, *more):
     """Nothing of the first scene is taken over. (The second would only take time.)"""
     results, outcome = run(folder, ["first"], [*more, "--resume"])
     assert results["resumed"] == []
-    assert outcome.err == "scene 1 of 1: first\n"
+    assert outcome.err == (f"resumed: nothing: no scene of this run is finished in {folder}/out\n"
+                           "scene 1 of 1: first\n")
     assert not (folder / "out/partial").exists()
+
+
+def refusal(folder, scenes=("first", "second"), more=()):
+    """What is said about scenes that would be lost, all of which are still there."""
+    kept = contents(folder / "out/partial")
+    outcome = contactcheck(*command(folder, scenes, more))
+    assert outcome.exit_code == 2
+    assert contents(folder / "out/partial") == kept
+    head = f"contactcheck: --out {folder}/out: an interrupted run has left 1 finished scene there"
+    assert outcome.err.startswith(head)
+    return outcome.err[len(head):]
+
+
+def expect_refused_and_overwritten(folder, names, *more):
+    """The first scene, of which `names` have changed, is not lost without --overwrite."""
+    for resume in ([], ["--resume"]):
+        words = refusal(folder, ["first"], [*more, *resume])
+        assert words.startswith(f", of which first is of another run (other {names}): contactcheck run ")
+        assert words.endswith("; --overwrite discards them, another --out keeps them\n")
+    expect_run_again(folder, *more, "--overwrite")
 
 
 def contents(folder):
@@ -127,13 +149,8 @@ def test_second_run_into_a_folder_is_refused_until_the_first_has_ended(folder):
     assert len(results["runs"]) == 2, "at once"
 
 
-def test_resumed_run_gives_what_an_uninterrupted_run_gives_without_the_first_scene_again(folder):
-    whole, _ = run(folder, out="whole")
-    interrupt(folder)
-    results, outcome = run(folder, more=["--resume"])
-    assert results["resumed"] == ["first"]
-    assert outcome.err == "scene 2 of 2: second\n"
-
+def expect_the_same(folder, results, whole):
+    """Of a run in out/ and one in whole/."""
     def hashes(of):
         return {(row["scene"], row["detector"]): row["contact_hash"] for row in of["runs"]}
 
@@ -147,11 +164,56 @@ def test_resumed_run_gives_what_an_uninterrupted_run_gives_without_the_first_sce
     assert names_in(folder / "out/contacts") == {"first.json", "second.json"}
 
 
+def test_resumed_run_gives_what_an_uninterrupted_run_gives_without_the_first_scene_again(folder):
+    whole, _ = run(folder, out="whole")
+    interrupt(folder)
+    results, outcome = run(folder, more=["--resume"])
+    assert results["resumed"] == ["first"]
+    assert outcome.err == (f"resumed: 1 of 2 scenes, finished in {folder}/out: first\n"
+                           "scene 2 of 2: second\n")
+    expect_the_same(folder, results, whole)
+
+
+def test_finished_run_is_taken_over_whole(folder):
+    whole, _ = run(folder, out="whole")
+    run(folder)
+    results, outcome = run(folder, more=["--resume"])
+    assert results["resumed"] == ["first", "second"]
+    assert outcome.err == f"resumed: 2 of 2 scenes, finished in {folder}/out: first, second\n"
+    assert names_in(folder / "out") == run_files("plots")
+    expect_the_same(folder, results, whole)
+
+
+def test_finished_scenes_are_taken_into_a_larger_run_that_may_be_interrupted(folder):
+    run(folder, ["first"])
+    with RunningProgram(PROGRAM, command(folder, more=["--resume"])) as program:
+        program.wait_for((folder / "out/recordings/second.ccr").exists)
+        program.send(signal.SIGKILL)
+        program.outcome()
+    assert names_in(folder / "out/partial") == {"first.partial.json"}
+    results, _ = run(folder, more=["--resume"])
+    assert results["resumed"] == ["first"]
+
+
+@pytest.mark.parametrize("damaged", ["recordings/first.ccr", "contacts/first.json", "results.json",
+                                     "cases/0001.json"])
+@pytest.mark.parametrize("remove", [True, False])
+def test_finished_scene_that_is_damaged_is_run_again(folder, damaged, remove):
+    run(folder, ["first"])
+    if remove:
+        (folder / "out" / damaged).unlink()
+    elif damaged in ("recordings/first.ccr", "results.json"):
+        content = (folder / "out" / damaged).read_bytes()
+        (folder / "out" / damaged).write_bytes(content[:-9])
+    else:
+        return
+    expect_run_again(folder)
+
+
 def test_resumed_run_says_what_it_took_over_and_leaves_nothing_else(interrupted):
     _, outcome = run(interrupted, more=["--resume"])
-    assert "resumed: first: finished by an earlier run\n" in outcome.out
-    assert "resumed: second" not in outcome.out
-    assert "interrupted (`--resume`)" in (interrupted / "out/report.md").read_text()
+    assert "finished in" in outcome.err
+    assert "Taken over from an earlier run (`--resume`)" in (interrupted / "out/report.md").read_text()
     assert names_in(interrupted / "out") == run_files("plots")
 
 
@@ -162,7 +224,7 @@ def test_rows_are_those_that_were_kept(interrupted):
     kept.write_text(json.dumps(content))
     results, outcome = run(interrupted, ["first"], ["--resume"])
     assert results["runs"][0]["message"] == "as it was kept"
-    assert outcome.err == "", "no scene is run"
+    assert "scene 1" not in outcome.err, "no scene is run"
 
 
 def test_run_that_is_killed_again_keeps_what_it_took_over(interrupted):
@@ -173,8 +235,32 @@ def test_run_that_is_killed_again_keeps_what_it_took_over(interrupted):
     assert results["resumed"] == ["first"]
 
 
-def test_without_resume_every_scene_runs_again(interrupted):
-    results, outcome = run(interrupted)
+def test_without_resume_nothing_is_lost(interrupted):
+    assert refusal(interrupted) == " (first): --resume takes them over, --overwrite discards them\n"
+
+
+def test_scenes_of_another_run_are_not_lost(interrupted):
+    for resume in ([], ["--resume"]):
+        words = refusal(interrupted, ["second"], resume)
+        assert words.startswith(", of which first is of another run (other scenes): contactcheck run ")
+    results, _ = run(interrupted, more=["--resume"])
+    assert results["resumed"] == ["first"], "as if the other had not been tried"
+
+
+def test_check_leaves_the_scenes_of_an_interrupted_run(interrupted):
+    kept = contents(interrupted / "out/partial")
+    for frame in (0, 1):
+        (interrupted / f"ball_{frame}.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        (interrupted / f"wall_{frame}.obj").write_text("v 0 0 -1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n")
+    found = contactcheck("check", *sorted(interrupted.glob("*_?.obj")), "--out", interrupted / "out")
+    assert found.exit_code == 1, found.err
+    assert contents(interrupted / "out/partial") == kept
+    results, _ = run(interrupted, more=["--resume"])
+    assert results["resumed"] == ["first"]
+
+
+def test_with_overwrite_every_scene_runs_again(interrupted):
+    results, outcome = run(interrupted, more=["--overwrite"])
     assert "resumed" not in results
     assert "scene 1 of 2: first\n" in outcome.err
     assert "--resume" not in (interrupted / "out/report.md").read_text()
@@ -184,26 +270,32 @@ def test_nothing_to_take_over_is_no_error(folder):
     expect_run_again(folder)
 
 
-@pytest.mark.parametrize("option", ["--frames=4", "--detector=fcl-aabb", "--call-limit=50"])
-def test_other_settings_run_the_scene_again(interrupted, option):
-    expect_run_again(interrupted, *option.split("="))
+@pytest.mark.parametrize("option, names", [
+    ("--frames=4", "frames"), ("--detector=fcl-aabb", "detector"), ("--call-limit=50", "call_limit")])
+def test_scene_of_other_settings_is_not_lost(interrupted, option, names):
+    expect_refused_and_overwritten(interrupted, names, *option.split("="))
 
 
 def test_changed_scene_is_run_again(interrupted):
     (interrupted / "first.json").write_text(first_scene(6))
-    expect_run_again(interrupted)
+    expect_refused_and_overwritten(interrupted, "content")
 
 
 def test_changed_mesh_is_run_again(interrupted):
     (interrupted / "corner.obj").write_text("v 0.3 0 0\nv 1.4 0 0\nv 0.4 1 0\nf 1 2 3\n")
-    expect_run_again(interrupted)
+    expect_refused_and_overwritten(interrupted, "content")
 
 
 def test_scene_without_its_recording_is_run_again(interrupted):
     recording = interrupted / "out/recordings/first.ccr"
-    recording.unlink()
-    expect_run_again(interrupted)
-    assert recording.exists()
+    for damage in (recording.unlink, lambda: recording.write_bytes(b"another")):
+        kept = contents(interrupted / "out/partial")
+        damage()
+        expect_run_again(interrupted)
+        (interrupted / "out/partial").mkdir()
+        for name, text in kept.items():
+            (interrupted / "out/partial" / name).write_bytes(text)
+        (interrupted / "out/results.json").unlink()
 
 
 def test_damaged_files_are_run_again(interrupted):
@@ -214,6 +306,7 @@ def test_damaged_files_are_run_again(interrupted):
     for damaged in (text[:len(text) // 2], "", "[]", json.dumps(without_runs), "[" * 100_000):
         kept.parent.mkdir(exist_ok=True)
         kept.write_text(damaged)
+        (interrupted / "out/results.json").unlink(missing_ok=True)
         expect_run_again(interrupted)
 
 

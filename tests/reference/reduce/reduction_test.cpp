@@ -204,13 +204,36 @@ TEST(Reduce, StartsWithTheCellsAloneAndKeepsAllTheirNodes) {
 
 TEST(GeneralPosition, IsLostWhereACornerLiesInTheOtherPlane) {
   const std::vector<double> crossing = {0, 0, -2, 3, 0, -1, 0, 0, 2, 1, -1, 0, 1, 2, 0, 2, 1, 1};
-  EXPECT_TRUE(in_general_position(two_triangles(crossing), {0, 0}));
+  EXPECT_TRUE(in_general_position(two_triangles(crossing), {0, 0}, {1, 0}));
   std::vector<double> touching = crossing;
   touching[10] = 0.0;  // a corner of the second comes into the plane y = 0 of the first
-  EXPECT_FALSE(in_general_position(two_triangles(touching), {0, 0}));
+  EXPECT_FALSE(in_general_position(two_triangles(touching), {0, 0}, {1, 0}));
   std::vector<double> flat = crossing;
   flat[6] = 6.0, flat[8] = 0.0;  // the first becomes a segment
-  EXPECT_FALSE(in_general_position(two_triangles(flat), {0, 0}));
+  EXPECT_FALSE(in_general_position(two_triangles(flat), {0, 0}, {1, 0}));
+}
+
+// A third box, in no contact, between two that touch.
+TEST(Reduce, KeepsTheMeshesThatItTakes) {
+  CaseCandidate three = two_boxes();
+  three.names = {"left", "between", "right"};
+  three.meshes.insert(three.meshes.begin() + 1, three.meshes[0]);
+  for (Vec3& v : three.meshes[1].vertices) v += Vec3(100.0, 0.0, 0.0);
+  three.sides = {0, 2};
+  const ElementPair contact = truth_of(three).surface.triangles.front();
+  ASSERT_EQ(contact.body_b, 2u);
+  for (const std::size_t needed : {2, 3}) {
+    const auto shows = [&](const CaseCandidate& c) {
+      return c.meshes.size() >= needed && touches(c);
+    };
+    const auto reduction = reduce(three, TrianglePair{contact.a, contact.b}, shows, kPlenty);
+    ASSERT_TRUE(reduction);
+    const CaseCandidate& least = reduction->result;
+    EXPECT_EQ(least.names, needed == 3 ? three.names : (std::vector<std::string>{"left", "right"}));
+    EXPECT_EQ(least.triangles(), needed);
+    EXPECT_EQ(least.mesh_of(0), 0u);
+    EXPECT_EQ(least.mesh_of(1), needed - 1);
+  }
 }
 
 // What two triangles of one mesh share is what they are about.

@@ -9,7 +9,7 @@ def test_says_which_scenes_were_taken_over(markdown, sample):
     sample["resumed"] = []
     assert markdown(sample) == without
     sample["resumed"] = ["hello", "world"]
-    assert ("\n\nTaken over from an earlier run that was interrupted (`--resume`), with the times measured "
+    assert ("\n\nTaken over from an earlier run (`--resume`), with the times measured "
             "then: hello, world.\n\n## Summary") in markdown(sample)
 
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/detect/registry.h"
@@ -34,29 +35,41 @@ struct AbSide {
   std::string name;                ///< "base" or "head"
   std::filesystem::path program;   ///< absolute
   std::vector<std::string> flags;  ///< that name its detectors
+  std::string detector;            ///< of a side that is one; empty: a program with its own
 };
 
-enum class BuildKind { kProgram, kLibrary, kCommand };
-
-constexpr const char* kKindNames[] = {"a program", "a library", "a command"};
+/// A program, or a detector that this one runs.
+enum class SideKind { kProgram, kLibrary, kCommand, kBuiltIn };
 
 // A program may lie anywhere, so its path says nothing; but none is called "x.so", and a text of
 // several words that is no file can only be a command.
-BuildKind kind_of(const std::string& text) {
-  if (text.substr(0, text.find(':')).ends_with(".so")) return BuildKind::kLibrary;
-  const bool words = text.find(' ') != std::string::npos;
-  return words && !fs::exists(text) ? BuildKind::kCommand : BuildKind::kProgram;
+SideKind kind_of(const std::string& text, const DetectorCatalog& catalog) {
+  const std::string id = text.substr(0, text.find(':'));
+  if (id.ends_with(".so")) return SideKind::kLibrary;
+  if (fs::exists(text)) return SideKind::kProgram;
+  if (text.find(' ') != std::string::npos) return SideKind::kCommand;
+  return catalog.find(id) != nullptr ? SideKind::kBuiltIn : SideKind::kProgram;
 }
 
-AbSide side_of(const char* name, const std::string& text, BuildKind kind,
-               const AbArguments& arguments) {
-  AbSide side = {name, fs::absolute(text), {}};
-  if (kind == BuildKind::kProgram) {
+std::string detector_name(const std::string& text, SideKind kind, const DetectorCatalog& catalog) {
+  if (kind == SideKind::kBuiltIn) return catalog.parse(text).name;
+  const bool library = kind == SideKind::kLibrary;
+  const OwnDetectors own = load_own_detectors(
+      library ? std::vector{text} : std::vector<std::string>(),
+      library ? std::vector<std::string>() : std::vector{text}, suite::RunSettings{}, catalog);
+  return own.catalog.parse(own.names.front()).name;
+}
+
+AbSide side_of(const char* name, const std::string& text, SideKind kind,
+               const AbArguments& arguments, const DetectorCatalog& catalog) {
+  AbSide side = {name, fs::absolute(text), {}, ""};
+  if (kind == SideKind::kProgram) {
     if (!fs::is_regular_file(side.program) || access(side.program.c_str(), X_OK) != 0)
       throw InputError(std::string(name) + " \"" + text + "\" is not a program that can be run");
   } else {
     side.program = fs::read_symlink("/proc/self/exe");
-    side.flags = {kind == BuildKind::kLibrary ? "--detector" : "--detector-cmd", text};
+    side.flags = {kind == SideKind::kCommand ? "--detector-cmd" : "--detector", text};
+    side.detector = detector_name(text, kind, catalog);
   }
   for (const std::string& detector : arguments.detectors) {
     side.flags.push_back("--detector");
@@ -65,33 +78,17 @@ AbSide side_of(const char* name, const std::string& text, BuildKind kind,
   return side;
 }
 
-std::string detector_name(const std::string& text, BuildKind kind, const DetectorCatalog& catalog) {
-  const bool library = kind == BuildKind::kLibrary;
-  const OwnDetectors own = load_own_detectors(
-      library ? std::vector{text} : std::vector<std::string>(),
-      library ? std::vector<std::string>() : std::vector{text}, suite::RunSettings{}, catalog);
-  return own.catalog.parse(own.names.front()).name;
-}
-
-// Base and head. @throws InputError: no program that can be run, no library or command that can be
-// used, two of different kinds, detectors with different names
+// Base and head. @throws InputError: no program that can be run, no detector that can be used, or
+// one of each
 std::vector<AbSide> ab_sides(const AbArguments& arguments, const DetectorCatalog& catalog) {
   const std::string base = arguments.base.string(), head = arguments.head.string();
-  const BuildKind kind = kind_of(base), other = kind_of(head);
-  if (kind != other)
-    throw InputError("base \"" + base + "\" is " + kKindNames[static_cast<int>(kind)] +
-                     " and head \"" + head + "\" is " + kKindNames[static_cast<int>(other)] +
-                     "; ab compares two of a kind");
-  if (kind != BuildKind::kProgram) {
-    // Rows are compared by their names.
-    const std::string old_name = detector_name(base, kind, catalog),
-                      new_name = detector_name(head, kind, catalog);
-    if (old_name != new_name)
-      throw InputError("base \"" + base + "\" is the detector \"" + old_name + "\" and head \"" +
-                       head + "\" is \"" + new_name +
-                       "\"; ab compares two builds of one detector with the same options");
-  }
-  return {side_of("base", base, kind, arguments), side_of("head", head, kind, arguments)};
+  const SideKind kind = kind_of(base, catalog), other = kind_of(head, catalog);
+  const auto what = [](SideKind k) { return k == SideKind::kProgram ? "a program" : "a detector"; };
+  if ((kind == SideKind::kProgram) != (other == SideKind::kProgram))
+    throw InputError("base \"" + base + "\" is " + what(kind) + " and head \"" + head + "\" is " +
+                     what(other) + "; ab compares two programs or two detectors");
+  return {side_of("base", base, kind, arguments, catalog),
+          side_of("head", head, other, arguments, catalog)};
 }
 
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
@@ -99,8 +96,13 @@ constexpr auto kPollInterval = std::chrono::milliseconds(20);
 /// One of the two builds.
 class Build {
  public:
-  Build(const AbSide& side, const AbArguments& arguments)
-      : name_(side.name), program_(side.program), out_(fs::absolute(arguments.out) / side.name) {
+  /// `row`: what the rows of a side that is a detector are called, to be compared.
+  Build(const AbSide& side, std::string row, const AbArguments& arguments)
+      : name_(side.name),
+        program_(side.program),
+        out_(fs::absolute(arguments.out) / side.name),
+        detector_(side.detector),
+        row_(std::move(row)) {
     words_ = {"run", "--quiet", "--processes", "1"};
     if (arguments.frames > 0) add("--frames", std::to_string(arguments.frames));
     words_.insert(words_.end(), side.flags.begin(), side.flags.end());
@@ -109,11 +111,19 @@ class Build {
   }
 
   results::Results run() const {
-    // What an earlier round has left must not pass for this one's.
+    // What an earlier round, or one that was interrupted, has left must not pass for this one's.
     std::error_code ignored;
     fs::remove(out_ / "results.json", ignored);
+    fs::remove_all(out_ / "partial", ignored);
     run_to_the_end();
-    return results::results_in(out_ / "results.json");
+    results::Results results = results::results_in(out_ / "results.json");
+    for (results::Run& run : results.runs) {
+      if (detector_.empty() || run.detector != detector_ || detector_ == row_) continue;
+      run.detector = row_;
+      // Two detectors may have depths of two kinds, and one of them none.
+      run.geometry.depth = run.geometry.normal_deg = {};
+    }
+    return results;
   }
 
  private:
@@ -145,6 +155,7 @@ class Build {
 
   std::string name_;
   fs::path program_, out_;
+  std::string detector_, row_;
   std::vector<std::string> words_;
 };
 
@@ -156,7 +167,9 @@ class Build {
 std::vector<results::AbRound> run_rounds(const std::vector<AbSide>& sides,
                                          const AbArguments& arguments,
                                          const std::function<void(std::size_t)>& on_round) {
-  const Build base(sides.at(0), arguments), head(sides.at(1), arguments);
+  const std::string &old_name = sides.at(0).detector, &new_name = sides.at(1).detector;
+  const std::string row = old_name == new_name ? new_name : old_name + " -> " + new_name;
+  const Build base(sides.at(0), row, arguments), head(sides.at(1), row, arguments);
   std::vector<results::AbRound> rounds(arguments.rounds);
   for (std::size_t r = 0; r < rounds.size(); ++r) {
     on_round(r);

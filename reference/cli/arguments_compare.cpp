@@ -33,10 +33,10 @@ void add_ab_limits(CLI::App& ab, AbArguments& arguments) {
 void add_ab(CommandLine& line) {
   const auto arguments = std::make_shared<AbArguments>();
   CLI::App* ab = line.app.add_subcommand(
-      "ab", "Compares two builds: is HEAD slower, does it answer differently");
-  ab->add_option("base", arguments->base, "old program, or a detector's old library or command")
+      "ab", "Compares two builds or detectors: is HEAD slower, does it answer differently");
+  ab->add_option("base", arguments->base, "old program, or a detector: name, library or command")
       ->required();
-  ab->add_option("head", arguments->head, "new program, or a detector's new library or command")
+  ab->add_option("head", arguments->head, "new program, or a detector: name, library or command")
       ->required();
   ab->add_option("targets", arguments->targets,
                  "suites, scenes or files, as of run (default: default)");
@@ -61,7 +61,8 @@ void add_ab(CommandLine& line) {
       "  contactcheck ab ../main/build/release/contactcheck build/release/contactcheck "
       "bunny-touch\n"
       "  contactcheck ab ./libmine-old.so ./libmine.so bunny-touch\n"
-      "  contactcheck ab 'python3 old.py' 'python3 new.py' bunny-touch");
+      "  contactcheck ab 'python3 old.py' 'python3 new.py' bunny-touch\n"
+      "  contactcheck ab fcl-aabb embree contact");
   choose(*ab, line, [arguments, &line] { return ab_command(*arguments, line.catalog); });
 }
 

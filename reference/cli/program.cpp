@@ -15,8 +15,10 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "core/types/check.h"
+#include "core/types/suggestion.h"
 #include "reference/cli/arguments.h"
 #include "reference/process/exit_codes.h"
 #include "reference/process/interrupts.h"
@@ -69,14 +71,33 @@ void require_output_written() {
                    (works_again ? "an earlier write failed" : std::strerror(errno)));
 }
 
+// What may have been meant by a flag: one that differs little, or of which it is a longer form.
+std::string flag_suggestion(const std::string& word, const CLI::App& command) {
+  std::vector<std::string> flags, shorter;
+  for (const CLI::Option* const option : command.get_options())
+    for (const std::string& name : option->get_lnames()) {
+      flags.push_back("--" + name);
+      if (word.starts_with(flags.back())) shorter.push_back(flags.back());
+    }
+  const std::string near = suggestion(word, flags);
+  return near.empty() && !shorter.empty() ? "did you mean " + shorter.front() + "? " : near;
+}
+
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& command = chosen.empty() ? app : *chosen.front();
+  const std::vector<std::string> rest = command.remaining();
   // CLI11 would say that a subcommand is missing, and not which word it does not know.
-  if (app.get_subcommands().empty() && !app.remaining().empty()) {
-    const std::string word = app.remaining().front();
-    say(std::string("unknown ") + (word.rfind('-', 0) == 0 ? "flag" : "command") + " \"" + word +
-        "\"; contactcheck --help names all");
+  if (!rest.empty() && rest.front().starts_with("-")) {
+    say("unknown flag \"" + rest.front() + "\"; " + flag_suggestion(rest.front(), command) +
+        "contactcheck " + (chosen.empty() ? "" : command.get_name() + " ") + "--help names all");
+  } else if (chosen.empty() && !rest.empty()) {
+    std::vector<std::string> names;
+    for (const CLI::App* const one : app.get_subcommands([](const CLI::App*) { return true; }))
+      if (!one->get_group().empty()) names.push_back(one->get_name());
+    say("unknown command \"" + rest.front() + "\"; " + suggestion(rest.front(), names) +
+        "contactcheck --help names all");
   } else if (error.get_name() == "RequiredError") {
-    const auto chosen = app.get_subcommands();
     say(chosen.empty() ? "which command? contactcheck --help names all"
                        : std::string(error.what()) + "; contactcheck " +
                              chosen.front()->get_name() + " --help says more");

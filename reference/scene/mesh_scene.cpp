@@ -131,7 +131,7 @@ std::string scene_text(const ScenePlan& plan) {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDocument = "the scene of --mesh";
+constexpr const char* kDocument = "the scene of these meshes";
 constexpr double kLargest = 1e6;  // metres, of a mesh as it is in its file
 // Shares of the smaller body's largest side: the gap out of contact, how much deeper press goes.
 constexpr double kGap = 0.35, kDeeper = 0.1;

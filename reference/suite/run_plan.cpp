@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 
 // Defaults for meshes: libraries, the paper's last method without and with triangles, and ours.
-const Names kForMeshes = {"fcl-aabb",  "embree",           "bullet-gimpact",
-                          "bullet-vf", "ffd-aabb-sphere2", "ffd-aabb-sphere2+tri",
-                          "ffd-lazy"};
+const Names kForMeshes = {"fcl-aabb",   "embree",           "bullet-gimpact",
+                          "bullet-vf",  "ffd-aabb-sphere2", "ffd-aabb-sphere2+tri",
+                          "full-refit", "ffd-lazy"};
 
 // Defaults for one mesh that meets itself: detectors of self-contact.
 const Names kForItself = {"fcl-aabb", "embree", "full-refit", "ffd-lazy"};

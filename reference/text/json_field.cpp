@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/types/check.h"
+#include "core/types/suggestion.h"
 #include "reference/text/file_text.h"
 #include "reference/text/lists.h"
 
@@ -44,7 +45,7 @@ void JsonField::only_keys(const std::vector<std::string>& keys) const {
     const std::string& key = value_->keys[i];
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     JsonField(value_->items[i], *this, member_path(path_, key))
-        .fail("is not a known key; allowed here: " + joined(keys));
+        .fail("is not a known key; " + suggestion(key, keys) + "allowed here: " + joined(keys));
   }
 }
 
@@ -68,7 +69,12 @@ JsonField JsonField::at(const std::string& key) const {
   const JsonValue* value = value_->find(key);
   if (value == nullptr) {
     const JsonValue nothing;
-    JsonField(nothing, *this, member_path(path_, key)).fail("is missing");
+    // Who looks for it before the others may not have seen that one of them is misspelt.
+    std::string misspelt;
+    for (const std::string& there : value_->keys)
+      if (!suggestion(there, {key}).empty())
+        misspelt = "; is " + in_quotes(there) + " meant as it?";
+    JsonField(nothing, *this, member_path(path_, key)).fail("is missing" + misspelt);
   }
   return JsonField(*value, *this, member_path(path_, key));
 }

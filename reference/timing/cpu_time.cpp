@@ -79,8 +79,9 @@ long waits() {
 }
 
 std::string milliseconds(double nanoseconds) {
+  const double value = nanoseconds / kNanosecondsPerMillisecond;
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g ms", nanoseconds / kNanosecondsPerMillisecond);
+  std::snprintf(text, sizeof text, value < 1000.0 ? "%.3g ms" : "%.0f ms", value);
   return text;
 }
 

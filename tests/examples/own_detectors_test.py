@@ -152,20 +152,23 @@ def ab(base, head, folder):
             "--out", folder / "ab")
 
 
-@pytest.mark.parametrize("base, head", [(LIBRARY, LIBRARY), (COMMAND, f"env {COMMAND}")],
-                         ids=["libraries", "commands"])
-def test_two_builds_are_compared_in_turns(base, head, tmp_path):
+@pytest.mark.parametrize("base, head, row", [
+    (LIBRARY, LIBRARY, "c-sweep "), (COMMAND, f"env {COMMAND}", "python-pipe "),
+    (LIBRARY, f"{LIBRARY}:axis=y", "c-sweep:axis=x -> c-sweep:axis=y "), (COMMAND, LIBRARY, "python-pipe -> c-sweep"),
+    ("fcl-aabb", "embree", "fcl-aabb -> embree ")],
+    ids=["libraries", "commands", "options", "command and library", "built in"])
+def test_two_detectors_are_compared_in_turns(base, head, row, tmp_path):
     outcome = contactcheck(*ab(base, head, tmp_path))
-    assert outcome.exit_code == 0, outcome.err
+    assert outcome.exit_code == 0, outcome.out
     assert "PASS: answers are equal, 1 time is within the limit." in outcome.out
+    assert f"hard-vertex-face  {row}" in outcome.out
 
 
 @pytest.mark.parametrize("base, head, named", [
-    (LIBRARY, f"{LIBRARY}:axis=y", ["ab compares two builds of one detector"]),
-    (PROGRAM, LIBRARY, ["ab compares two of a kind"]),
-    (COMMAND, LIBRARY, ["is a command and head", "is a library; ab compares two of a kind"]),
-], ids=["other options", "program and library", "command and library"])
-def test_builds_of_two_kinds_are_not_compared(base, head, named, tmp_path):
+    (PROGRAM, LIBRARY, ["is a program and head", "is a detector; ab compares two programs or two detectors"]),
+    ("embree", PROGRAM, ["is a detector and head", "is a program; ab compares two programs or two detectors"]),
+], ids=["program and library", "name and program"])
+def test_program_and_detector_are_not_compared(base, head, named, tmp_path):
     refused(*ab(base, head, tmp_path), named=named, folder=tmp_path)
 
 

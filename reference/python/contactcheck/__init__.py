@@ -21,12 +21,22 @@ from __future__ import annotations
 
 import json
 import operator
+import pathlib
 import sys
+import sysconfig
 from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 
-from . import _binding
+try:
+    from . import _binding
+except ImportError as _error:
+    # "cpython-311-x86_64-linux-gnu"
+    _built_for = [file.name.split(".")[1] for file in pathlib.Path(__file__).parent.glob("_binding.*.so")]
+    if not _built_for or sysconfig.get_config_var("SOABI") in _built_for:
+        raise
+    raise ImportError(f"contactcheck was built for {_built_for[0]}, and this Python is "
+                      f"{sysconfig.get_config_var('SOABI')}: start the one or build for the other") from _error
 from ._binding import InputError, RefusedInput, Unavailable, __version__
 from ._run import Check, Results, Scene, Verdict, check, gate, run
 from ._serve import Body, Frame, LatticeArrays

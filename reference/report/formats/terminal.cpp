@@ -205,7 +205,8 @@ std::string column_legend(const std::set<std::string>& shown) {
 }
 
 std::string terminal_tables(const results::Results& results, bool color, bool explain) {
-  std::string out = paint(headline_of(results).title, kBold, color) + "\n\n";
+  const Headline headline = headline_of(results);
+  std::string out = paint(headline.title, kBold, color) + "\n\n";
   const results::Index index(results);
   std::set<std::string> shown;
   const auto table = [&](TitledTable of) {
@@ -232,6 +233,8 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
       out += part.table.rows.empty() ? "\n" : table(std::move(part.table));
     }
   }
+  if (!headline.cheapest.empty())
+    out += paint("cheapest without errors: " + headline.cheapest, kBold, color) + "\n\n";
   if (!explain) return out + "  report.md has all columns; --explain says what they mean\n";
   for (const std::string& line : {timing_line(results), steadiness_line(results)})
     if (!line.empty()) out += "  " + line + "\n\n";

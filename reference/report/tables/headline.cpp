@@ -79,18 +79,30 @@ std::vector<Verdict> verdicts_of(const Index& index) {
 }
 
 // About contacts only: hover, depths and normals have separate sentences.
-std::string title_of(const Results& results, const std::vector<Verdict>& all) {
-  std::size_t scenes = 0, cases = 0;
-  for (const results::Scene& scene : results.scenes) {
+std::string title_of(const Index& index, const std::vector<Verdict>& all) {
+  std::size_t scenes = 0, judged_scenes = 0, cases = 0, judged_cases = 0;
+  for (const results::Scene& scene : index.results().scenes) {
     if (!scene.unjudged.empty()) continue;
-    if (scene.family)
-      cases += scene.family->values.size();
-    else
-      ++scenes;
+    // Not where no detector claims a level of the scene.
+    const std::vector<const Run*>& rows = index.runs_of(scene.id);
+    const bool judged =
+        rows.empty() || std::any_of(rows.begin(), rows.end(), [](const Run* row) {
+          return !row->ok() || std::any_of(row->levels.begin(), row->levels.end(),
+                                           [](const auto& one) { return !one.second.informative; });
+        });
+    const std::size_t count = scene.family ? scene.family->values.size() : 1;
+    (scene.family ? cases : scenes) += count;
+    if (judged) (scene.family ? judged_cases : judged_scenes) += count;
   }
   Names parts;
-  if (scenes > 0) parts.push_back(plural(scenes, "scene"));
-  if (cases > 0) parts.push_back(plural(cases, "hard case"));
+  const auto add = [&](std::size_t judged, std::size_t of, const char* what) {
+    const std::string all_of_them = plural(of, what);
+    if (of > 0)
+      parts.push_back(judged == of || judged == 0 ? all_of_them
+                                                  : grouped_digits(judged) + " of " + all_of_them);
+  };
+  add(judged_scenes, scenes, "scene");
+  add(judged_cases, cases, "hard case");
   const std::string places = listed(parts);
   if (all.empty()) return "Nothing was judged in " + (places.empty() ? "this run" : places);
 
@@ -188,11 +200,20 @@ struct Winner {
   Names scenes;
 };
 
-// The winners among detectors that answer with all pairs of triangles, most scenes first.
-std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& verdicts) {
-  std::set<std::string> exact;
+// What can be compared, the first that two were timed in: in a scene of steps that is contact
+// within them, in a scene of self-contact that.
+constexpr std::pair<Question, const char*> kCompared[] = {
+    {Question::kImpacts, "all contacts within steps"},
+    {Question::kSelf, "all contacts of bodies with themselves"},
+    {Question::kTriangles, "all pairs of triangles"},
+    {Question::kBody, "pairs of bodies"}};
+
+// The winners among detectors that were right and answer this question, most scenes first.
+std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& verdicts,
+                               Question question) {
+  std::set<std::string> right;
   for (const Verdict& verdict : verdicts)
-    if (verdict.flawless()) exact.insert(verdict.detector);
+    if (verdict.flawless()) right.insert(verdict.detector);
   std::vector<Winner> out;
   for (const bool families : {false, true})
     for (const results::Scene& scene : index.results().scenes) {
@@ -200,12 +221,10 @@ std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& v
       const Run* best = nullptr;
       std::size_t candidates = 0;
       for (const Run* run : index.runs_of(scene.id)) {
-        if (!run->ok() || !exact.contains(run->detector) || run->times.empty() ||
-            run->times.front().question != Question::kTriangles)
-          continue;
+        const results::QuestionTimes* const times = times_in(*run, question);
+        if (!run->ok() || !right.contains(run->detector) || times == nullptr) continue;
         ++candidates;
-        if (best == nullptr ||
-            run->times.front().playback.frame < best->times.front().playback.frame)
+        if (best == nullptr || times->playback.frame < times_in(*best, question)->playback.frame)
           best = run;
       }
       if (candidates < 2) continue;
@@ -217,9 +236,29 @@ std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& v
   return out;
 }
 
-void add_fastest(const Index& index, const std::vector<Winner>& winners,
-                 std::vector<HeadlineFinding>& out) {
-  if (winners.empty()) return;
+// ": 15.1 to 75.1x fcl-aabb", over the first reference that was timed beside it; with its ends, if
+// it is of one scene.
+std::string over_reference(const std::vector<const Run*>& runs, Question question) {
+  Names references(results::kReferences.begin(), results::kReferences.end());
+  if (is_of_steps(question))
+    references.assign(results::kStepReferences.begin(), results::kStepReferences.end());
+  for (const std::string& reference : references) {
+    if (reference == runs.front()->detector) continue;
+    Range ratios;
+    std::string of_one;
+    for (const Run* run : runs)
+      if (const results::Speedup* speedup = speedup_of(*run, question, reference)) {
+        ratios.add(speedup->playback.value);
+        of_one = format_ratio(speedup->playback, speedup->passes);
+      }
+    if (ratios.low)
+      return ": " + (runs.size() == 1 ? of_one : format_range(ratios) + "x") + " " + reference;
+  }
+  return "";
+}
+
+std::string cheapest_sentence(const Index& index, const std::vector<Winner>& winners,
+                              Question question, const char* what) {
   const Winner& best = winners.front();
   std::size_t total = 0;
   Names others;
@@ -229,27 +268,20 @@ void add_fastest(const Index& index, const std::vector<Winner>& winners,
       others.push_back(winner.detector + " in " + short_list(winner.scenes, kMostPlaces));
   }
   const std::string where = total > best.scenes.size()
-                                ? fmt::format("in {} of {} scenes", best.scenes.size(), total)
-                            : total == 1 ? "in the scene"
-                                         : fmt::format("in all {} scenes", grouped_digits(total));
+                                ? fmt::format(" in {} of {} scenes", best.scenes.size(), total)
+                            : total == 1 ? ""
+                                         : fmt::format(" in all {} scenes", grouped_digits(total));
   std::vector<const Run*> runs;
-  for (const std::string& scene : best.scenes) runs.push_back(index.run(scene, best.detector));
-  Names slower;
-  for (const std::string reference : results::kReferences) {
-    if (reference == best.detector) continue;
-    Range times;
-    for (const Run* run : runs)
-      if (const results::Speedup* speedup = speedup_of(*run, Question::kTriangles, reference))
-        times.add(speedup->playback.value);
-    if (times.low)
-      slower.push_back(fmt::format("{} takes {} times as long", reference, format_range(times)));
+  double ms = 0.0, frames = 0.0;
+  for (const std::string& scene : best.scenes) {
+    runs.push_back(index.run(scene, best.detector));
+    const auto weight = static_cast<double>(std::max<std::size_t>(runs.back()->frames, 1));
+    ms += weight * times_in(*runs.back(), question)->playback.frame;
+    frames += weight;
   }
-  out.push_back({"Fastest of these",
-                 fmt::format("{} {}: {} ms per frame there for all pairs of triangles, in "
-                             "playback{}.{}",
-                             best.detector, where, format_number(mean_frame_ms(runs, false)),
-                             others.empty() ? "" : "; " + listed(others),
-                             slower.empty() ? "" : " " + listed(slower) + ".")});
+  return fmt::format("{}{}{}, of {}, {} ms per frame{}", best.detector, where,
+                     over_reference(runs, question), what, format_number(ms / frames),
+                     others.empty() ? "" : "; " + listed(others));
 }
 
 /// The errors of one detector, over all scenes.
@@ -368,13 +400,18 @@ void add_goals(const Results& results, std::vector<HeadlineFinding>& out) {
 Headline headline_of(const Results& results) {
   const Index index(results);
   const std::vector<Verdict> verdicts = verdicts_of(index);
-  const std::vector<Winner> winners = winners_of(index, verdicts);
   Headline out;
-  out.title = results.finding ? results.finding->title : title_of(results, verdicts);
+  out.title = results.finding ? results.finding->title : title_of(index, verdicts);
   if (results.finding) out.findings.push_back({"First", results.finding->first + "."});
-  for (const Winner& winner : winners) out.fastest.push_back(winner.detector);
   add_exact(verdicts, out.findings);
-  add_fastest(index, winners, out.findings);
+  for (const auto& [question, what] : kCompared) {
+    const std::vector<Winner> winners = winners_of(index, verdicts, question);
+    if (winners.empty()) continue;
+    for (const Winner& winner : winners) out.fastest.push_back(winner.detector);
+    out.cheapest = cheapest_sentence(index, winners, question, what);
+    out.findings.push_back({"Cheapest without errors", out.cheapest + "."});
+    break;
+  }
   add_wrong(verdicts, true, out.findings);
   add_wrong(verdicts, false, out.findings);
   add_hover(index, out.findings);

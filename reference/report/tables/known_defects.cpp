@@ -100,6 +100,7 @@ std::string list_sentence(const char* what, const std::vector<results::DefectCou
     shown += d.shown;
     changed += d.changed;
   }
+  if (listed == 0) return fmt::format("No {} are of these detectors and families. ", what);
   return fmt::format(
       "Of {} {} that this run could show, {} show as listed, {} with another count and {} do not. ",
       grouped_digits(listed), what, grouped_digits(shown - std::min(shown, changed)),

@@ -112,7 +112,14 @@ TitledTable summary_table(const results::Results& results) {
     out.columns.push_back(reference_column(reference, ""));
   std::vector<Sums> all;
   for (const Run& run : results.runs) add_run(run, line_of(run, all));
-  for (const Sums& s : all) out.rows.push_back(cells_of(s));
+  for (const Sums& s : all) {
+    // Scenes about levels that a detector does not claim say nothing about it beside others.
+    const bool about_nothing = !s.level && s.not_ok.empty();
+    const bool has_more = std::any_of(all.begin(), all.end(), [&](const Sums& other) {
+      return other.detector == s.detector && other.level;
+    });
+    if (!about_nothing || !has_more) out.rows.push_back(cells_of(s));
+  }
   return out;
 }
 

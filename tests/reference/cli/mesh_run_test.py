@@ -109,7 +109,7 @@ def test_mesh_files_need_no_flag(folder):
     judged = results(folder, "bare")
     assert judged["scenes"][0]["id"] == "ball-cube-press"
     assert detectors(judged) == ["fcl-aabb", "embree", "bullet-gimpact", "bullet-vf", "ffd-aabb-sphere2",
-                                 "ffd-aabb-sphere2+tri", "ffd-lazy"]
+                                 "ffd-aabb-sphere2+tri", "full-refit", "ffd-lazy"]
 
 
 def test_says_how_the_meshes_are_scaled(folder):

@@ -341,3 +341,13 @@ def test_scenes_run_in_the_order_given_with_running_case_numbers(tmp_path, scene
         assert case["scene"] == disagreement["scene"]
     assert "scene 1 of 2: second\n" in outcome.err
     assert "all scenes" in outcome.out
+
+
+# A detector of bodies has nothing to say about a body that touches itself.
+def test_families_about_levels_that_nobody_claims_are_not_counted(tmp_path):
+    results, outcome = run(tmp_path / "out", "hard-boxes-gap", "hard-self-point", "--no-timing", *named("bullet-cl"))
+    sizes = {scene["id"]: len(scene["family"]["values"]) for scene in results["scenes"]}
+    assert outcome.out.splitlines()[0].endswith(
+        f" in {sizes['hard-boxes-gap']} of {sum(sizes.values())} hard cases")
+    rows = [line.split()[:5] for line in outcome.out.splitlines() if line.startswith("  bullet-cl ")]
+    assert rows == [["bullet-cl", "1", "body", "5", "1"], ["bullet-cl", "body", "0", "of", "1"]]

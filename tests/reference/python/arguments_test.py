@@ -1,6 +1,10 @@
 """What goes in as it is, and what is refused: with argument, place and value."""
 
+import os
+import pathlib
 import re
+import subprocess
+import sys
 import types
 
 import contactcheck
@@ -209,3 +213,19 @@ def test_a_detector_that_refused_begins_anew():
     with pytest.raises(contactcheck.InputError, match="prepare\\(\\) begins anew"):
         detector.update([V])
     detector.prepare([contactcheck.Lattice(V, F)])
+
+
+def test_module_of_another_python_names_both(tmp_path):
+    package = pathlib.Path(contactcheck.__file__).parent
+    (tmp_path / "contactcheck").mkdir()
+    for file in package.iterdir():
+        if file.suffix == ".py":
+            (tmp_path / "contactcheck" / file.name).write_bytes(file.read_bytes())
+    [binding] = package.glob("_binding.*.so")
+    _, own, _ = binding.name.split(".")
+    (tmp_path / "contactcheck" / binding.name.replace(own, "cpython-23-some-machine")).symlink_to(binding)
+    outcome = subprocess.run([sys.executable, "-c", "import contactcheck"], check=False, capture_output=True,
+                             text=True, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    assert outcome.stderr.splitlines()[-1] == (
+        f"ImportError: contactcheck was built for cpython-23-some-machine, and this Python is {own}: start the one "
+        "or build for the other")

@@ -168,12 +168,38 @@ TEST(Headline, TheFastestOfThoseThatWereRightIsFoundSceneByScene) {
   // Where it was not the fastest: the time is not of that scene.
   runs[0].speedup[Question::kTriangles]["embree"].playback = {9.0, 8.0, 10.0};
   const Results results = run_of({"a", "b", "c"}, runs);
-  EXPECT_EQ(sentence_about(results, "Fastest of these"),
-            "x in 2 of 3 scenes: 1.00 ms per frame there for all pairs of triangles, in playback; "
-            "y in a. embree takes 3.00 to 5.00 times as long.");
+  const std::string cheapest =
+      "x in 2 of 3 scenes: 3.00 to 5.00x embree, of all pairs of triangles, 1.00 ms per frame; y "
+      "in "
+      "a";
+  EXPECT_EQ(sentence_about(results, "Cheapest without errors"), cheapest + ".");
+  EXPECT_EQ(headline_of(results).cheapest, cheapest);
   EXPECT_THAT(headline_of(results).fastest, ElementsAre("x", "y"));
   EXPECT_THAT(headline_of(run_of({"a"}, {row("a", "x", 0, 0, 2.0)})).fastest, IsEmpty())
       << "alone it beats nobody";
+}
+
+TEST(Headline, TheCheapestInOneSceneHasTheIntervalOfItsPasses) {
+  std::vector<results::Run> runs = {row("a", "x", 0, 0, 1.0), row("a", "fcl-aabb", 0, 0, 3.0)};
+  results::Speedup& speedup = runs[0].speedup[Question::kTriangles]["fcl-aabb"];
+  speedup.playback = {3.0, 2.5, 3.5};
+  speedup.passes = 5;
+  EXPECT_EQ(headline_of(run_of({"a"}, runs)).cheapest,
+            "x: 3.00x [2.50, 3.50] fcl-aabb, of all pairs of triangles, 1.00 ms per frame");
+}
+
+// What a scene of steps or of self-contact is about comes first; who answers another question, or
+// was wrong, cannot be compared.
+TEST(Headline, TheCheapestIsOfOneQuestion) {
+  std::vector<results::Run> runs;
+  for (const auto& [detector, question, ms] :
+       {std::tuple{"x", Question::kSelf, 2.0}, std::tuple{"y", Question::kSelf, 1.0},
+        std::tuple{"bodies", Question::kBody, 0.1}, std::tuple{"wrong", Question::kSelf, 0.1}}) {
+    runs.push_back(row("a", detector, detector == std::string("wrong") ? 1 : 0, 0, ms));
+    runs.back().times[0].question = question;
+  }
+  EXPECT_EQ(headline_of(run_of({"a"}, runs)).cheapest,
+            "y, of all contacts of bodies with themselves, 1.00 ms per frame");
 }
 
 TEST(Headline, ContactSeenFartherOffThanDeclaredIsToldApart) {

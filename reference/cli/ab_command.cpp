@@ -12,6 +12,7 @@
 
 #include "core/detect/registry.h"
 #include "core/types/check.h"
+#include "core/types/suggestion.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/github_job.h"
@@ -46,9 +47,9 @@ enum class SideKind { kProgram, kLibrary, kCommand, kBuiltIn };
 SideKind kind_of(const std::string& text, const DetectorCatalog& catalog) {
   const std::string id = text.substr(0, text.find(':'));
   if (id.ends_with(".so")) return SideKind::kLibrary;
-  if (fs::exists(text)) return SideKind::kProgram;
-  if (text.find(' ') != std::string::npos) return SideKind::kCommand;
-  return catalog.find(id) != nullptr ? SideKind::kBuiltIn : SideKind::kProgram;
+  if (catalog.find(id) != nullptr) return SideKind::kBuiltIn;
+  const bool words = text.find(' ') != std::string::npos;
+  return words && !fs::exists(text) ? SideKind::kCommand : SideKind::kProgram;
 }
 
 std::string detector_name(const std::string& text, SideKind kind, const DetectorCatalog& catalog) {
@@ -64,14 +65,20 @@ AbSide side_of(const char* name, const std::string& text, SideKind kind,
                const AbArguments& arguments, const DetectorCatalog& catalog) {
   AbSide side = {name, fs::absolute(text), {}, ""};
   if (kind == SideKind::kProgram) {
+    std::vector<std::string> ids;
+    for (const DetectorInfo& info : catalog.all()) ids.push_back(info.id);
+    const std::string near = suggestion(text, ids);
     if (!fs::is_regular_file(side.program) || access(side.program.c_str(), X_OK) != 0)
-      throw InputError(std::string(name) + " \"" + text + "\" is not a program that can be run");
+      throw InputError(std::string(name) + " \"" + text + "\" is not a program that can be run" +
+                       (near.empty() ? "" : "; " + near.substr(0, near.size() - 1)));
   } else {
     side.program = fs::read_symlink("/proc/self/exe");
     side.flags = {kind == SideKind::kCommand ? "--detector-cmd" : "--detector", text};
     side.detector = detector_name(text, kind, catalog);
   }
   for (const std::string& detector : arguments.detectors) {
+    if (detector == text)
+      throw InputError("--detector " + detector + ": " + name + " is this detector already");
     side.flags.push_back("--detector");
     side.flags.push_back(detector);
   }
@@ -84,11 +91,13 @@ std::vector<AbSide> ab_sides(const AbArguments& arguments, const DetectorCatalog
   const std::string base = arguments.base.string(), head = arguments.head.string();
   const SideKind kind = kind_of(base, catalog), other = kind_of(head, catalog);
   const auto what = [](SideKind k) { return k == SideKind::kProgram ? "a program" : "a detector"; };
+  // First of all, that there is such a program: a misspelt detector is none.
+  std::vector<AbSide> sides = {side_of("base", base, kind, arguments, catalog),
+                               side_of("head", head, other, arguments, catalog)};
   if ((kind == SideKind::kProgram) != (other == SideKind::kProgram))
     throw InputError("base \"" + base + "\" is " + what(kind) + " and head \"" + head + "\" is " +
                      what(other) + "; ab compares two programs or two detectors");
-  return {side_of("base", base, kind, arguments, catalog),
-          side_of("head", head, other, arguments, catalog)};
+  return sides;
 }
 
 constexpr auto kPollInterval = std::chrono::milliseconds(20);

@@ -73,14 +73,17 @@ void require_output_written() {
 
 // What may have been meant by a flag: one that differs little, or of which it is a longer form.
 std::string flag_suggestion(const std::string& word, const CLI::App& command) {
-  std::vector<std::string> flags, shorter;
+  const std::string flag = word.substr(0, word.find('='));
+  std::vector<std::string> flags;
+  std::string shorter;
   for (const CLI::Option* const option : command.get_options())
     for (const std::string& name : option->get_lnames()) {
       flags.push_back("--" + name);
-      if (word.starts_with(flags.back())) shorter.push_back(flags.back());
+      if (flag.starts_with(flags.back()) && flags.back().size() > shorter.size())
+        shorter = flags.back();
     }
-  const std::string near = suggestion(word, flags);
-  return near.empty() && !shorter.empty() ? "did you mean " + shorter.front() + "? " : near;
+  const std::string near = suggestion(flag, flags);
+  return near.empty() && !shorter.empty() ? "did you mean " + shorter + "? " : near;
 }
 
 int refuse(const CLI::App& app, const CLI::ParseError& error) {

@@ -56,14 +56,13 @@ std::vector<Reducible> reducible(const results::Results& results, const fs::path
                            ", level " + d.level,
                        out / d.case_file});
   for (const results::Run& run : results.runs) {
-    const fs::path recording = out / "recordings" / (run.scene + ".ccr");
     if (run.status != results::Status::kError || !run.failed_frame ||
         any_impact(run.semantics.levels) || run.message.ends_with("(while timed)") ||
-        !fs::exists(recording))
+        run.recording.empty())
       continue;
     const std::string frame = std::to_string(*run.failed_frame);
     found.push_back({run.detector, "gave no answer in " + run.scene + ", frame " + frame,
-                     recording.string() + "@" + frame});
+                     (out / run.recording).string() + "@" + frame});
   }
   return found;
 }

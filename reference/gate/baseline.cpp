@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "reference/gate/gate.h"
 #include "reference/results/results_json.h"
-#include "reference/text/lists.h"
 
 namespace contactcheck::gate {
 namespace {
@@ -35,10 +35,6 @@ std::string row_change(const results::Run& before, const results::Run& now) {
   std::string line;
   add_change(line, "status", name_of(before.status), name_of(now.status));
   if (!before.ok() || !now.ok()) return line;
-  const auto levels = [](const results::Run& row) {
-    return text::joined(row.semantics.levels, [](Level level) { return name_of(level); });
-  };
-  add_change(line, "levels", levels(before), levels(now));
   add_change(line, "frames", std::to_string(before.frames), std::to_string(now.frames));
   for (const auto& [name, count] :
        {std::pair<const char*, Count>{"truth", &results::LevelCounts::truth},
@@ -46,6 +42,8 @@ std::string row_change(const results::Run& before, const results::Run& now) {
         {"spurious", &results::LevelCounts::spurious}})
     add_change(line, name, count_text(before, count), count_text(now, count));
   add_change(line, "contact_hash", before.contact_hash, now.contact_hash);
+  for (const std::string& lost : judged_no_more(now, before))
+    line += (line.empty() ? "" : ", ") + lost;
   return line;
 }
 

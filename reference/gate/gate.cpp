@@ -127,11 +127,12 @@ std::vector<std::string> changed_measures(const Semantics& now, const Semantics&
   if (before.exact) compare("that it is exact:", "yes", yes(now.exact));
   compare("precision", name_of(before.precision), name_of(now.precision));
   compare("scale", text::shown(before.scale), text::shown(now.scale));
-  compare("depth", name_of(before.depth), name_of(now.depth));
+  if (before.depth != DepthKind::kNone) compare("depth", name_of(before.depth), name_of(now.depth));
   return out;
 }
 
-// Sentences; both rows are `ok`.
+}  // namespace
+
 std::vector<std::string> judged_no_more(const results::Run& row, const results::Run& old) {
   std::vector<std::string> out = levels_no_more(row, old);
   for (const Question question : old.semantics.questions)
@@ -153,8 +154,6 @@ std::vector<std::string> judged_no_more(const results::Run& row, const results::
     out.push_back("the motion that it drives was judged in the baseline, and is not now");
   return out;
 }
-
-}  // namespace
 
 std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows,
                                  const results::Results& results) {

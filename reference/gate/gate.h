@@ -38,6 +38,10 @@ std::optional<Check> too_many_open(const Policy& policy, const GateResult& resul
 /// where the row declares another measure of contact than in the baseline, as a wider margin.
 std::vector<Check> lost_rows(const results::Index& now, const results::Results& before);
 
+/// What the baseline's row was judged by and this one is not, and where it declares another measure
+/// of contact: sentences. Both are `ok`.
+std::vector<std::string> judged_no_more(const results::Run& now, const results::Run& before);
+
 /// Applies every rule to every row that it is about. Failures are also: a rule whose patterns match
 /// nothing, scenes and rows that only the baseline has, and more rules that cannot be judged than
 /// the policy allows (but see Policy::advisory_times). `baseline` may be null. @throws InputError

@@ -131,6 +131,12 @@ Snapshot only(const Snapshot& all, const std::set<std::size_t>& bodies) {
   return out;
 }
 
+bool is_about(const ProbeVerdict& verdict, const Finding& finding,
+              const std::array<std::size_t, 2>& bodies) {
+  const ElementPair& pair = disagreement_of(verdict, finding).pair;
+  return std::minmax<std::size_t>(pair.body_a, pair.body_b) == std::minmax(bodies[0], bodies[1]);
+}
+
 using ShowsBodies = std::function<bool(const std::set<std::size_t>&)>;
 
 // `needed` and no more of the others than it takes. @pre all bodies show
@@ -217,6 +223,8 @@ Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
     if (needs_others) {
       verdict = probe.ask(task.frame_of_case, levels_of(task));
       finding = finding_of(verdict, task.level, task.kind);
+      // A case is the first of its kind; another one in its frame is not what it is about.
+      if (finding && !is_about(verdict, *finding, task.named)) finding.reset();
     }
     if (!finding) continue;
     found = Defect{task, *finding};

@@ -103,19 +103,23 @@ std::optional<FinishedScene> PartialResults::take(const KeptScene& wanted) {
 }
 
 std::optional<FinishedScene> PartialResults::take_complete(const KeptScene& wanted) {
-  const fs::path file = out_ / "results.json";
+  if (!complete_) {
+    complete_.emplace();
+    const fs::path file = out_ / "results.json";
+    try {
+      if (fs::is_regular_file(file)) complete_ = results::results_in(file);
+    } catch (const InputError&) {
+      // A damaged file is none.
+    }
+  }
+  const auto hash = complete_->identities.find(wanted.id);
+  const results::Index rows(*complete_);
+  if (hash == complete_->identities.end() || rows.scene(wanted.id) == nullptr) return std::nullopt;
   try {
-    if (!complete_ && fs::is_regular_file(file)) complete_ = results::results_in(file);
-    if (!complete_) return std::nullopt;
-    const auto hash = complete_->identities.find(wanted.id);
-    const results::Index rows(*complete_);
-    if (hash == complete_->identities.end() || rows.scene(wanted.id) == nullptr)
-      return std::nullopt;
     FinishedScene scene = finished_scene(rows, wanted.id, out_, scratch_);
     if (identity_hash(wanted.identity, scene, out_) == hash->second) return scene;
   } catch (const InputError&) {
-    // It is damaged, or a file that it names is gone: its scenes are run again.
-    complete_.emplace();
+    // A file that the scene names is gone.
   }
   return std::nullopt;
 }

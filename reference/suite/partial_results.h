@@ -51,7 +51,7 @@ class PartialResults {
   std::optional<FinishedScene> take_complete(const KeptScene& wanted);
 
   std::filesystem::path out_, folder_, scratch_;
-  /// Of the run that has ended in `out_`; empty: not read yet, or there is none.
+  /// Of the run that has ended in `out_`, empty without one; none: not looked for yet.
   std::optional<results::Results> complete_;
 };
 

@@ -23,12 +23,16 @@ bool contains(const std::vector<Value>& values, const Value& value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
+std::string recording_of(const SceneAnswers& scene) {
+  return scene.recorded ? "recordings/" + scene.task.id + ".ccr" : "";
+}
+
 // The result of judging, and what the turns add to it but times. Fills `samples` where the detector
 // was timed without a failure.
 results::Run judged_row(const SceneAnswers& scene, const DetectorAnswer& detector,
                         Samples& samples) {
   results::Run run = detector.run;
-  if (scene.recorded) run.recording = "recordings/" + scene.task.id + ".ccr";
+  run.recording = recording_of(scene);
   const std::vector<TurnAnswer>& turns = turns_of(scene.turns, detector.position);
   std::vector<std::string> notes;
   for (const TurnAnswer& answer : turns)
@@ -62,6 +66,7 @@ results::Run broken_row(const SceneAnswers& scene, std::uint32_t position) {
   run.scene = scene.task.id;
   run.detector = scene.task.detectors[position];
   run.status = results::Status::kError;
+  run.recording = recording_of(scene);
   run.failed_frame = outcome.frame;
   run.message = place_of(scene.task.id, outcome) +
                 (outcome.detector ? "" : " in the suite's own code, after this detector had run");

@@ -51,9 +51,14 @@ void append(std::vector<T> from, std::vector<T>& to) {
 SuiteOutput::SuiteOutput(fs::path out, fs::path scratch)
     : out_(std::move(out)), scratch_(std::move(scratch)) {}
 
-void SuiteOutput::add(FinishedScene scene) {
+void SuiteOutput::write_contacts(FinishedScene& scene) const {
   if (!scene.contacts.empty())
     write_file_atomically(scratch_ / judge::contacts_path(scene.scene.id), scene.contacts);
+  scene.contacts.clear();
+}
+
+void SuiteOutput::add(FinishedScene scene) {
+  write_contacts(scene);
   scenes_.push_back(std::move(scene.scene));
   append(std::move(scene.runs), runs_);
   append(std::move(scene.disagreements), disagreements_);

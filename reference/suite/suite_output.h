@@ -15,6 +15,9 @@ class SuiteOutput {
   /// `out`: with the folders of make_out_folders; `scratch`: with a folder `contacts`.
   SuiteOutput(std::filesystem::path out, std::filesystem::path scratch);
 
+  /// Writes a scene's contacts to the scratch folder, and drops their text.
+  /// @throws InputError when they cannot be written
+  void write_contacts(FinishedScene& scene) const;
   /// In the order of the run. Its recording is in `out`, its case files where its disagreements
   /// say. @throws InputError when its contacts cannot be written
   void add(FinishedScene scene);

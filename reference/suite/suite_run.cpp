@@ -45,6 +45,14 @@ std::string named(const std::vector<std::string>& ids) {
          (ids.size() > kMost ? " and " + std::to_string(ids.size() - kMost) + " more" : "");
 }
 
+// A class of another interpreter may be another one in the next run, under the same words.
+bool known_again(const results::Results& record, const SceneTask& task) {
+  return std::none_of(task.detectors.begin(), task.detectors.end(), [&](const std::string& name) {
+    const results::Plugin* const plugin = record.plugin_of(name);
+    return plugin != nullptr && plugin->transient;
+  });
+}
+
 // Refuses to lose work: what an interrupted run has finished and this one does not take over.
 void require_nothing_lost(const SuiteRequest& request, const RunIdentity& identity,
                           const std::vector<KeptScene>& kept) {
@@ -64,10 +72,13 @@ void require_nothing_lost(const SuiteRequest& request, const RunIdentity& identi
   const std::string left = "--out " + request.out.string() + ": an interrupted run has left " +
                            text::counted(kept.size(), "finished scene") + " there";
   if (!other.empty())
-    throw InputError(left + ", of which " + named(other) + " " +
-                     (other.size() == 1 ? "is" : "are") + " of another run (other " +
-                     text::joined(why, [](const std::string& name) { return name; }) +
-                     "): " + command + "; --overwrite discards them, another --out keeps them");
+    throw InputError(
+        left + ", of which " + named(other) + " " + (other.size() == 1 ? "is" : "are") +
+        " of another run (other " +
+        text::joined(why, [](const std::string& name) { return name; }) + "): " + command +
+        (same.empty()
+             ? "; --overwrite discards them, another --out keeps them"
+             : "; --resume --overwrite takes over " + named(same) + " and discards the others"));
   if (!request.resume && !same.empty())
     throw InputError(left + " (" + named(same) +
                      "): --resume takes them over, --overwrite discards them");
@@ -83,19 +94,22 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
   PartialResults partial(request.out, scratch.path());
   const RunIdentity identity(request);
   if (request.keep && !request.overwrite) require_nothing_lost(request, identity, partial.kept());
+  SuiteOutput output(request.out, scratch.path());
   std::map<std::string, FinishedScene> earlier;
   results::Results record = record_of(request);
   if (request.resume) {
-    for (const SceneTask& task : request.tasks)
-      if (auto scene = partial.take({task.id, identity.of(task), request.command})) {
-        earlier.emplace(task.id, std::move(*scene));
-        record.resumed->push_back(task.id);
-      }
+    for (const SceneTask& task : request.tasks) {
+      if (!known_again(record, task)) continue;
+      auto scene = partial.take({task.id, identity.of(task), request.command});
+      if (!scene) continue;
+      output.write_contacts(*scene);  // which may be large
+      earlier.emplace(task.id, std::move(*scene));
+      record.resumed->push_back(task.id);
+    }
     listener.resumed(*record.resumed);
   } else if (request.keep) {
     partial.clear();
   }
-  SuiteOutput output(request.out, scratch.path());
   SuiteProgress progress;
   progress.scenes = request.tasks.size();
   for (; progress.scene < request.tasks.size(); ++progress.scene) {
@@ -117,9 +131,11 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
     } else {
       report({});
       finished = run_scene(request, task, scratch.path(), listener, report);
-      if (request.keep) partial.keep({task.id, identity.of(task), request.command}, finished);
+      if (request.keep && known_again(record, task))
+        partial.keep({task.id, identity.of(task), request.command}, finished);
     }
-    record.identities[task.id] = identity_hash(identity.of(task), finished, request.out);
+    if (known_again(record, task))
+      record.identities[task.id] = identity_hash(identity.of(task), finished, request.out);
     listener.scene_end({task.id, resumed_now, finished.runs});
     output.add(std::move(finished));
   }

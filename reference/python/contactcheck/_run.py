@@ -330,7 +330,8 @@ def run(
     `frames`: so many, in the same time. `processes`: timed passes; `timing=False` judges only.
     `out`: the folder of all files; None: one that is removed with the results. `quiet`: neither
     progress nor tables; by default where standard error is no terminal. `options`: of the command
-    line, e.g. ["--memory-limit", "512"]: of a detector of one's own that counts what it has taken.
+    line, e.g. ["--memory-limit", "512"]: of a detector of one's own that counts what it has taken;
+    ["--resume"] or ["--overwrite"] where `out` has scenes that an interrupted run has finished.
 
     Raises InputError for a bad argument or scene, in the words of the command line. Ctrl-C ends the
     run, and raises KeyboardInterrupt.
@@ -362,10 +363,13 @@ def run(
                                      "an object with prepare, update, query and declares")
             words += ["--detector-cmd", server.command(len(own))]
             own.append(detector)
-        if "--resume" not in options:
-            (folder / "results.json").unlink(missing_ok=True)
+        file = folder / "results.json"
+        before = file.stat() if file.exists() else None
         _call(words, server, quiet)
-        results = Results(folder / "results.json")
+        # A run replaces the file: what an earlier one has left must not pass for its results.
+        if before is not None and os.path.samestat(before, file.stat()):
+            raise Unavailable(f"the run has left no results in {folder}")
+        results = Results(file)
     except BaseException:
         if out is None:
             shutil.rmtree(folder, ignore_errors=True)

@@ -87,22 +87,25 @@ std::string title_of(const Index& index, const std::vector<Verdict>& all) {
     const std::vector<const Run*>& rows = index.runs_of(scene.id);
     const bool judged =
         rows.empty() || std::any_of(rows.begin(), rows.end(), [](const Run* row) {
-          return !row->ok() || std::any_of(row->levels.begin(), row->levels.end(),
-                                           [](const auto& one) { return !one.second.informative; });
+          return row->status == results::Status::kError ||
+                 std::any_of(row->levels.begin(), row->levels.end(),
+                             [](const auto& one) { return !one.second.informative; });
         });
     const std::size_t count = scene.family ? scene.family->values.size() : 1;
     (scene.family ? cases : scenes) += count;
     if (judged) (scene.family ? judged_cases : judged_scenes) += count;
   }
   Names parts;
+  const bool none = judged_scenes + judged_cases == 0;
   const auto add = [&](std::size_t judged, std::size_t of, const char* what) {
     const std::string all_of_them = plural(of, what);
-    if (of > 0)
-      parts.push_back(judged == of || judged == 0 ? all_of_them
-                                                  : grouped_digits(judged) + " of " + all_of_them);
+    if (judged == of || none)
+      parts.push_back(all_of_them);
+    else if (judged > 0)
+      parts.push_back(grouped_digits(judged) + " of " + all_of_them);
   };
-  add(judged_scenes, scenes, "scene");
-  add(judged_cases, cases, "hard case");
+  if (scenes > 0) add(judged_scenes, scenes, "scene");
+  if (cases > 0) add(judged_cases, cases, "hard case");
   const std::string places = listed(parts);
   if (all.empty()) return "Nothing was judged in " + (places.empty() ? "this run" : places);
 
@@ -200,8 +203,8 @@ struct Winner {
   Names scenes;
 };
 
-// What can be compared, the first that two were timed in: in a scene of steps that is contact
-// within them, in a scene of self-contact that.
+// What can be compared: what was in the most scenes, of equals the first. A scene of steps is about
+// contact within them, a scene of self-contact about that.
 constexpr std::pair<Question, const char*> kCompared[] = {
     {Question::kImpacts, "all contacts within steps"},
     {Question::kSelf, "all contacts of bodies with themselves"},
@@ -404,14 +407,18 @@ Headline headline_of(const Results& results) {
   out.title = results.finding ? results.finding->title : title_of(index, verdicts);
   if (results.finding) out.findings.push_back({"First", results.finding->first + "."});
   add_exact(verdicts, out.findings);
+  std::size_t most = 0;
   for (const auto& [question, what] : kCompared) {
     const std::vector<Winner> winners = winners_of(index, verdicts, question);
-    if (winners.empty()) continue;
+    std::size_t scenes = 0;
+    for (const Winner& winner : winners) scenes += winner.scenes.size();
+    if (scenes <= most) continue;
+    most = scenes;
+    out.fastest.clear();
     for (const Winner& winner : winners) out.fastest.push_back(winner.detector);
     out.cheapest = cheapest_sentence(index, winners, question, what);
-    out.findings.push_back({"Cheapest without errors", out.cheapest + "."});
-    break;
   }
+  if (most > 0) out.findings.push_back({"Cheapest without errors", out.cheapest + "."});
   add_wrong(verdicts, true, out.findings);
   add_wrong(verdicts, false, out.findings);
   add_hover(index, out.findings);

@@ -121,6 +121,18 @@ def test_error_that_needs_three_bodies_has_three(tmp_path, row_of_boxes):
     assert "mine missed a contact" in again.out
 
 
+# The error of other bodies in the same frame is another one.
+def test_case_whose_bodies_are_right_again_is_refused(tmp_path, row_of_boxes):
+    words = row_of_boxes("del found[1:]")
+    wrong = tmp_path / "wrong.py"
+    text = wrong.read_text(encoding="utf-8")
+    assert "del found[1:]" in text
+    wrong.write_text(text.replace("del found[1:]", "del found[:1]"), encoding="utf-8")
+    outcome = contactcheck(*words, cwd=tmp_path)
+    assert outcome.exit_code == 2
+    assert "row, frame 2: nothing is missed at level body any more in the answer of mine" in outcome.err
+
+
 def test_crash_of_ones_own_detector_is_what_is_next(tmp_path, row_of_boxes):
     words = row_of_boxes("__import__('os').kill(__import__('os').getpid(), 11)")
     assert words[:2] == ["reduce", "out/recordings/row.ccr@2"]

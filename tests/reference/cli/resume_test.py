@@ -195,6 +195,30 @@ def test_finished_scenes_are_taken_into_a_larger_run_that_may_be_interrupted(fol
     assert results["resumed"] == ["first"]
 
 
+def test_other_finished_scenes_are_taken_over_beside_a_damaged_one(folder):
+    (folder / "third.json").write_text(tiny_scene("third", 5))
+    run(folder, ["first", "third"])
+    (folder / "out/recordings/first.ccr").unlink()
+    results, _ = run(folder, ["first", "third"], ["--resume"])
+    assert results["resumed"] == ["third"]
+
+
+def test_scenes_of_two_runs_are_taken_over_or_discarded(interrupted):
+    (interrupted / "third.json").write_text(tiny_scene("third", 5))
+    with RunningProgram(PROGRAM, command(interrupted, ["third", "second"],
+                                         ["--resume", "--overwrite"])) as program:
+        program.wait_for((interrupted / "out/partial/third.partial.json").exists)
+        program.send(signal.SIGKILL)
+        program.outcome()
+    outcome = contactcheck(*command(interrupted, ["first"]))
+    assert outcome.exit_code == 2
+    assert "has left 2 finished scenes there, of which third is of another run (other scenes): " in outcome.err
+    assert outcome.err.endswith("; --resume --overwrite takes over first and discards the others\n")
+    results, _ = run(interrupted, ["first"], ["--resume", "--overwrite"])
+    assert results["resumed"] == ["first"]
+    assert not (interrupted / "out/partial").exists()
+
+
 @pytest.mark.parametrize("damaged", ["recordings/first.ccr", "contacts/first.json", "results.json",
                                      "cases/0001.json"])
 @pytest.mark.parametrize("remove", [True, False])

@@ -86,6 +86,16 @@ def test_changes_name_what_is_new_gone_and_other(accept, results):
         "  touch  exact: gone\n")
 
 
+def test_changes_name_what_is_not_judged_any_more(accept, results):
+    accept(results)
+    row = results.row("paper")
+    row["semantics"].update(levels=["body"], margin=0.01)
+    del row["levels"]["cell"]
+    assert accept(results).split("changed:\n")[1] == (
+        "  touch  paper: truth 40 -> null, missed 3 -> null, spurious 2 -> null, level cell was judged in the baseline; "
+        "now the detector does not claim it, it declares margin (metres) 0 in the baseline, 0.01 now\n")
+
+
 def test_changes_leave_times_out(accept, results):
     accept(results)
     results.row("exact")["time_ms"]["playback"]["frame"] = 9.0

@@ -641,3 +641,15 @@ def test_class_of_steps_needs_no_update():
     scene = contactcheck.Scene.from_frames([falling(1, -1), ([SHEET[0]] * 2, SHEET[1])], levels=["impact"])
     (row,) = contactcheck.run(scene, Steps(), timing=False).rows()
     assert (row["status"], row["impact_truth"], row["impact_missed"]) == ("ok", 1, 0)
+
+
+# A class may be another one under the same name.
+def test_rows_of_a_class_are_never_taken_over(tmp_path):
+    def resumed(detector):
+        contactcheck.run(APPROACH, detector, out=tmp_path, timing=False, options=["--resume"])
+        return json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["resumed"]
+
+    assert resumed("ffd-lazy") == []
+    assert len(resumed("ffd-lazy")) == 1
+    assert resumed(Exact()) == []
+    assert resumed(Exact()) == []

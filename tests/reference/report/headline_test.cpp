@@ -52,6 +52,17 @@ TEST(Headline, TitleSaysHowManyWereRight) {
   EXPECT_EQ(headline_of(run_of({}, {})).title, "Nothing was judged in this run");
 }
 
+TEST(Headline, TitleCountsWhatWasJudged) {
+  results::Run unclaimed = row("b", "x", 0, 0);
+  unclaimed.levels.clear();
+  EXPECT_EQ(headline_of(run_of({"a", "b"}, {row("a", "x", 0, 0), unclaimed})).title,
+            "x has no missed and no spurious contacts in 1 of 2 scenes");
+  Results with_family = run_of({"b", "hard"}, {unclaimed, row("hard", "x", 0, 0)});
+  with_family.scenes[1].family.emplace().values = {"1", "2", "3"};
+  EXPECT_EQ(headline_of(with_family).title,
+            "x has no missed and no spurious contacts in 3 hard cases");
+}
+
 // Bodies that are apart, and were reported so.
 Run apart(const std::string& scene, const std::string& detector, Level level) {
   Run run = row(scene, detector, 0, 0);
@@ -188,8 +199,19 @@ TEST(Headline, TheCheapestInOneSceneHasTheIntervalOfItsPasses) {
             "x: 3.00x [2.50, 3.50] fcl-aabb, of all pairs of triangles, 1.00 ms per frame");
 }
 
-// What a scene of steps or of self-contact is about comes first; who answers another question, or
-// was wrong, cannot be compared.
+TEST(Headline, TheCheapestIsOfTheQuestionOfMostScenes) {
+  std::vector<results::Run> runs;
+  for (const char* const scene : {"a", "b", "folds"})
+    for (const auto& [detector, ms] : {std::pair{"x", 2.0}, std::pair{"y", 1.0}}) {
+      runs.push_back(row(scene, detector, 0, 0, ms));
+      if (scene == std::string("folds")) runs.back().times[0].question = Question::kSelf;
+    }
+  EXPECT_EQ(headline_of(run_of({"a", "b", "folds"}, runs)).cheapest,
+            "y in all 2 scenes, of all pairs of triangles, 1.00 ms per frame");
+}
+
+// Of questions of as many scenes it is what a scene of self-contact is about; who answers another
+// question, or was wrong, cannot be compared.
 TEST(Headline, TheCheapestIsOfOneQuestion) {
   std::vector<results::Run> runs;
   for (const auto& [detector, question, ms] :

@@ -205,12 +205,13 @@ void tell_github(const fs::path& file, const results::AbJudgement& judgement,
   append_github_summary(file, results::ab_markdown(judgement, setting));
 }
 
-results::AbSetting setting_of(const AbArguments& arguments) {
+results::AbSetting setting_of(const AbArguments& arguments, const std::vector<AbSide>& sides) {
   return {arguments.base.string(),
           arguments.head.string(),
           arguments.rounds,
           {arguments.slower_than, arguments.floor_us},
-          arguments.accuracy_may_change};
+          arguments.accuracy_may_change,
+          sides.at(0).detector != sides.at(1).detector};
 }
 
 }  // namespace
@@ -223,7 +224,7 @@ int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog) {
   const std::vector<results::AbRound> rounds = run_rounds(sides, arguments, [&](std::size_t round) {
     if (!arguments.quiet) std::fprintf(stderr, "round %zu of %zu\n", round + 1, arguments.rounds);
   });
-  const results::AbSetting setting = setting_of(arguments);
+  const results::AbSetting setting = setting_of(arguments, sides);
   const results::AbJudgement judgement = results::judge_ab(rounds, setting.limits);
   std::fputs(results::ab_text(judgement, setting).c_str(), stdout);
   if (arguments.github) tell_github(summary, judgement, setting);

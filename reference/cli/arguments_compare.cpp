@@ -33,7 +33,7 @@ void add_ab_limits(CLI::App& ab, AbArguments& arguments) {
 void add_ab(CommandLine& line) {
   const auto arguments = std::make_shared<AbArguments>();
   CLI::App* ab = line.app.add_subcommand(
-      "ab", "Compares two builds or detectors: is HEAD slower, does it answer differently");
+      "ab", "Compares builds or detectors: is HEAD slower, does it answer differently");
   ab->add_option("base", arguments->base, "old program, or a detector: name, library or command")
       ->required();
   ab->add_option("head", arguments->head, "new program, or a detector: name, library or command")

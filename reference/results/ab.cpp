@@ -111,6 +111,16 @@ Lines change_lines(const std::vector<RowChange>& changes,
   return lines;
 }
 
+// Within the limit and not faster, if that is wanted.
+Lines equal_lines(const AbJudgement& judgement, const AbSetting& setting) {
+  Lines lines;
+  for (const AbTime& time : judgement.times)
+    if (setting.two_detectors && time.verdict == AbVerdict::kPass &&
+        !(time.ratio.high * setting.limits.slower_than < 1.0))
+      lines.push_back(time_line(time));
+  return lines;
+}
+
 struct Section {
   std::string title;
   Lines lines;
@@ -131,6 +141,7 @@ std::vector<Section> sections_of(const AbJudgement& judgement, const AbSetting& 
           {"Too noisy to judge: more rounds or a quieter machine would tell",
            lines_of(judgement, AbVerdict::kTooNoisy)},
           {"Faster", faster_lines(judgement, setting.limits)},
+          {"Within the limit", equal_lines(judgement, setting)},
           {"Only in base", judgement.only_base},
           {"Only in head", judgement.only_head}};
 }

@@ -58,6 +58,7 @@ struct AbSetting {
   std::size_t rounds = 0;
   AbLimits limits;
   bool accuracy_may_change = false;
+  bool two_detectors = false;  ///< their ratio is told even where it is within the limit
 
   /// Also true if nothing could be compared.
   bool fails(const AbJudgement& judgement) const {

@@ -73,7 +73,7 @@ JsonField JsonField::at(const std::string& key) const {
     std::string misspelt;
     for (const std::string& there : value_->keys)
       if (!suggestion(there, {key}).empty())
-        misspelt = "; is " + in_quotes(there) + " meant as it?";
+        misspelt = "; " + in_quotes(there) + " may be meant by it";
     JsonField(nothing, *this, member_path(path_, key)).fail("is missing" + misspelt);
   }
   return JsonField(*value, *this, member_path(path_, key));

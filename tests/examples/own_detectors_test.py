@@ -153,15 +153,16 @@ def ab(base, head, folder):
 
 
 @pytest.mark.parametrize("base, head, row", [
-    (LIBRARY, LIBRARY, "c-sweep "), (COMMAND, f"env {COMMAND}", "python-pipe "),
-    (LIBRARY, f"{LIBRARY}:axis=y", "c-sweep:axis=x -> c-sweep:axis=y "), (COMMAND, LIBRARY, "python-pipe -> c-sweep"),
+    (LIBRARY, LIBRARY, ""), (COMMAND, f"env {COMMAND}", ""),
+    (LIBRARY, f"{LIBRARY}:axis=y", "c-sweep -> c-sweep:axis=y "), (COMMAND, LIBRARY, "python-sweep -> c-sweep "),
     ("fcl-aabb", "embree", "fcl-aabb -> embree ")],
     ids=["libraries", "commands", "options", "command and library", "built in"])
 def test_two_detectors_are_compared_in_turns(base, head, row, tmp_path):
     outcome = contactcheck(*ab(base, head, tmp_path))
     assert outcome.exit_code == 0, outcome.out
     assert "PASS: answers are equal, 1 time is within the limit." in outcome.out
-    assert f"hard-vertex-face  {row}" in outcome.out
+    # Of two builds of one detector a ratio within the limit is not told.
+    assert f"hard-vertex-face  {row}" in outcome.out if row else "hard-vertex-face" not in outcome.out
 
 
 @pytest.mark.parametrize("base, head, named", [

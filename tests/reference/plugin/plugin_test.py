@@ -94,7 +94,7 @@ def test_resume_takes_nothing_over_when_the_content_has_changed(script, tmp_path
     shutil.copytree(tmp_path / "kept", out)
     append_newline(script)
     refused("run", scenes[0], *words, "--resume",
-            named=["first is of another run (other plugins): contactcheck run "])
+            named=["first is of another run (other plugins): contactcheck run "], folder=tmp_path)
     successful("run", scenes[0], *words, "--resume", "--overwrite")
     assert valid_results(out / "results.json")["resumed"] == []
 

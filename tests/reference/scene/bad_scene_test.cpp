@@ -90,8 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
     Head, BadScene,
     ::testing::Values(
         Defect{"UnknownKey", R"("frames": 2)", R"("frames": 2, "frame": 3)",
-               ": frame is not a known key; allowed here: id, title, drawn, frames, duration, "
-               "time_step, simulation, sweep, levels, bodies."},
+               ": frame is not a known key; did you mean frames? allowed here: id, title, drawn, "
+               "frames, duration, time_step, simulation, sweep, levels, bodies."},
         Defect{"MissingKey", R"("frames": 2, )", "", ": frames is missing."},
         Defect{"BadId", R"("id": "s")", R"("id": "../s")",
                ": id is \"../s\"; it must be letters, digits, '-', '_' and '.', beginning with a "
@@ -129,9 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
         Defect{"ControlCharacter", R"("name": "right")", R"("name": "ri\nght")",
                ": bodies[1].name has a control character and cannot be a name."},
         Defect{"UnknownKey", R"("lattice": {"kept": 8})", R"("latice": {"kept": 8})",
-               ": bodies[1].latice is not a known key; allowed here: name, copies, mesh, lattice, "
-               "motion, "
-               "recording, material, velocity."},
+               ": bodies[1].latice is not a known key; did you mean lattice? allowed here: name, "
+               "copies, mesh, lattice, motion, recording, material, velocity."},
         Defect{"ZeroCells", "[1, 1, 1]", "[0, 1, 1]",
                ": bodies[0].lattice.cells[0] is 0; it must be a whole number from 1 to 128."},
         Defect{"TwoCells", "[1, 1, 1]", "[1, 1]",

@@ -203,8 +203,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "time."},
         Refusal{"NoFrames", R"("frames": 4, )", "", "frames is missing."},
         Refusal{"UnknownKey", R"("substeps")", R"("substep")",
-                "simulation.substep is not a known key; allowed here: step, substeps, gravity, "
-                "ground, driver, every."},
+                "simulation.substep is not a known key; did you mean substeps? allowed here: step, "
+                "substeps, gravity, ground, driver, every."},
         Refusal{"ZeroStep", R"("step": 0.01)", R"("step": 0)",
                 "simulation.step is 0; it must be a number above 0 and at most 1."},
         Refusal{"LongStep", R"("step": 0.01)", R"("step": 1.5)",
@@ -221,8 +221,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"EmptyDriver", R"("driver": "ffd-grid")", R"("driver": "")",
                 "simulation.driver is \"\"; it must be a text that is not empty."},
         Refusal{"GroundKey", R"("height")", R"("heigth")",
-                "simulation.ground.heigth is not a known key; allowed here: axis, height, "
-                "restitution, friction."},
+                "simulation.ground.heigth is not a known key; did you mean height? allowed here: "
+                "axis, height, restitution, friction."},
         Refusal{"GroundAxis", R"("axis": "z", "height")", R"("axis": "up", "height")",
                 "simulation.ground.axis is \"up\"; it must be one of x, y, z."},
         Refusal{"GroundHeight", R"("height": -1.5)", R"("height": "low")",

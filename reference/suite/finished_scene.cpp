@@ -1,6 +1,6 @@
 #include "reference/suite/finished_scene.h"
 
-#include "core/types/check.h"
+#include "reference/suite/job.h"
 #include "reference/suite/out_folder.h"
 
 namespace contactcheck::suite {

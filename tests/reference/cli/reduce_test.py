@@ -143,9 +143,9 @@ def test_crash_of_ones_own_detector_is_what_is_next(tmp_path, row_of_boxes):
 
 
 def test_hang_of_ones_own_detector_is_what_is_next_with_its_limit(row_of_boxes):
-    words = row_of_boxes("__import__('time').sleep(1000)", "--call-limit", "0.5")
+    words = row_of_boxes("__import__('time').sleep(1000)", "--call-limit", "4")
     assert words == ["reduce", "out/recordings/row.ccr@2", "--detector-cmd", "python3 wrong.py", "--call-limit",
-                     "0.5"]
+                     "4"]
 
 
 @pytest.mark.parametrize(("text", "named"), [

@@ -10,7 +10,7 @@ import time
 
 import pytest
 
-from program import PROGRAM, RunningProgram, refused, successful, tiny_scene, valid_results
+from program import PROGRAM, RunningProgram, contactcheck, refused, successful, tiny_scene, valid_results
 from tiny_run import TinyRun
 
 VERSION_1 = os.environ["CONTACTCHECK_VERSION_1_LIBRARY"]
@@ -93,8 +93,9 @@ def test_resume_takes_nothing_over_when_the_content_has_changed(script, tmp_path
     shutil.rmtree(out)
     shutil.copytree(tmp_path / "kept", out)
     append_newline(script)
-    refused("run", scenes[0], *words, "--resume",
-            named=["first is of another run (other plugins): contactcheck run "], folder=tmp_path)
+    again = contactcheck("run", scenes[0], *words, "--resume")
+    assert again.exit_code == 2
+    assert "first is of another run (other plugins): contactcheck run " in again.err
     successful("run", scenes[0], *words, "--resume", "--overwrite")
     assert valid_results(out / "results.json")["resumed"] == []
 

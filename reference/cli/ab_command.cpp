@@ -65,12 +65,13 @@ AbSide side_of(const char* name, const std::string& text, SideKind kind,
                const AbArguments& arguments, const DetectorCatalog& catalog) {
   AbSide side = {name, fs::absolute(text), {}, ""};
   if (kind == SideKind::kProgram) {
-    std::vector<std::string> ids;
-    for (const DetectorInfo& info : catalog.all()) ids.push_back(info.id);
-    const std::string near = suggestion(text, ids);
-    if (!fs::is_regular_file(side.program) || access(side.program.c_str(), X_OK) != 0)
+    if (!fs::is_regular_file(side.program) || access(side.program.c_str(), X_OK) != 0) {
+      std::vector<std::string> ids;
+      for (const DetectorInfo& info : catalog.all()) ids.push_back(info.id);
+      const std::string near = suggestion(text, ids);
       throw InputError(std::string(name) + " \"" + text + "\" is not a program that can be run" +
                        (near.empty() ? "" : "; " + near.substr(0, near.size() - 1)));
+    }
   } else {
     side.program = fs::read_symlink("/proc/self/exe");
     side.flags = {kind == SideKind::kCommand ? "--detector-cmd" : "--detector", text};
@@ -127,7 +128,7 @@ class Build {
     run_to_the_end();
     results::Results results = results::results_in(out_ / "results.json");
     for (results::Run& run : results.runs) {
-      if (detector_.empty() || run.detector != detector_ || detector_ == row_) continue;
+      if (run.detector != detector_ || detector_ == row_) continue;
       run.detector = row_;
       // Two detectors may have depths of two kinds, and one of them none.
       run.geometry.depth = run.geometry.normal_deg = {};

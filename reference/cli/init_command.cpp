@@ -10,6 +10,7 @@
 #include "init_files.h"
 #include "reference/cli/commands.h"
 #include "reference/text/file_text.h"
+#include "reference/text/lists.h"
 #include "reference/text/shell_word.h"
 
 namespace contactcheck::cli {
@@ -20,20 +21,19 @@ namespace fs = std::filesystem;
 /// A language that a detector can be begun in.
 struct Language {
   const char* name;
-  const char* source;    ///< of init_files
-  const char* file;      ///< its name in the folder
+  const char* file;      ///< of init_files, and in the folder
   const char* build;     ///< a command; empty: none
   const char* detector;  ///< words of `run`
 };
 
 constexpr const char* kHeader = "contactcheck_plugin.h";
 constexpr Language kLanguages[] = {
-    {"python", "detector.py", "detector.py", "", "--detector-cmd \"python3 detector.py\""},
-    {"c", "detector.c", "detector.c", "cc -O2 -shared -fPIC detector.c -o libdetector.so",
+    {"python", "detector.py", "", "--detector-cmd \"python3 detector.py\""},
+    {"c", "detector.c", "cc -O2 -shared -fPIC detector.c -o libdetector.so",
      "--detector ./libdetector.so"},
-    {"c++", "detector.cpp", "detector.cpp", "c++ -O2 -shared -fPIC detector.cpp -o libdetector.so",
+    {"c++", "detector.cpp", "c++ -O2 -shared -fPIC detector.cpp -o libdetector.so",
      "--detector ./libdetector.so"},
-    {"javascript", "detector.mjs", "detector.mjs", "", "--detector-cmd \"node detector.mjs\""}};
+    {"javascript", "detector.mjs", "", "--detector-cmd \"node detector.mjs\""}};
 
 std::string text_of(std::string_view name) {
   for (const InitFile& file : kInitFiles)
@@ -57,8 +57,8 @@ std::string workflow(const Language& language) {
 const Language& language_of(const std::string& name) {
   for (const Language& language : kLanguages)
     if (name == language.name) return language;
-  throw InputError("--language: " + text::in_quotes(name) +
-                   " is not one of python, c, c++, javascript");
+  throw InputError("--language: " + text::in_quotes(name) + " is not one of " +
+                   text::joined(kLanguages, [](const Language& l) { return std::string(l.name); }));
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ int init_command(const fs::path& folder, const std::string& language_name) {
   const bool compiled = *language.build != '\0';
   std::vector<std::pair<fs::path, std::string>> files = {
       {"scene.json", text_of("scene.json")},
-      {language.file, text_of(language.source)},
+      {language.file, text_of(language.file)},
       {"policy.json", text_of("policy.json")},
       {".github/workflows/contactcheck.yml", workflow(language)}};
   if (compiled) files.emplace_back(kHeader, text_of(kHeader));

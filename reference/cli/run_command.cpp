@@ -137,9 +137,9 @@ class Watcher {
       std::fprintf(stderr, "resumed: nothing: no scene of this run is finished in %s\n",
                    out_.c_str());
     else
-      std::fprintf(stderr, "resumed: %zu of %s, finished in %s: %s%s\n", ids.size(),
+      std::fprintf(stderr, "resumed: %zu of %s, finished in %s: %s\n", ids.size(),
                    text::counted(scenes_, "scene").c_str(), out_.c_str(),
-                   text::first_joined(ids, kMost).c_str(), ids.size() > kMost ? ", ..." : "");
+                   text::shortened(ids, kMost).c_str());
   }
   void show(const suite::SuiteProgress& progress) {
     const Clock::time_point now = Clock::now();

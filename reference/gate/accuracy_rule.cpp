@@ -196,25 +196,27 @@ Check hash_against_truth(const Rule& rule, const results::Index& now, const resu
 
 // A weaker claim is a weaker test: who claims less is wrong less often.
 Check judge_claims(const Rule& rule, const results::Run& row) {
-  const bool of_levels = rule.measure->kind == MeasureKind::kLevels;
-  std::vector<std::string> claimed, unjudged;
-  for (const Level level : row.semantics.levels)
-    if (of_levels) claimed.emplace_back(name_of(level));
-  for (const Question question : row.semantics.questions)
-    if (!of_levels) claimed.emplace_back(name_of(question));
-  bool holds = true;
-  for (const std::string& name : rule.included) {
-    const std::optional<Level> level = of_levels ? level_from_name(name) : std::nullopt;
-    if (std::find(claimed.begin(), claimed.end(), name) == claimed.end())
-      holds = false;
-    else if (level && !row.levels.contains(*level))
-      unjudged.push_back(name);
+  const auto holds = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  std::vector<std::string> claimed;
+  std::vector<Level> unjudged;
+  if (rule.measure->kind == MeasureKind::kLevels) {
+    for (const Level level : row.semantics.levels) {
+      claimed.emplace_back(name_of(level));
+      if (holds(rule.included, claimed.back()) && !row.levels.contains(level))
+        unjudged.push_back(level);
+    }
+  } else {
+    for (const Question question : row.semantics.questions) claimed.emplace_back(name_of(question));
   }
-  if (!holds || unjudged.empty())
-    return checked(rule, holds, std::string(rule.measure->name) + " " + text::joined(claimed));
-  const auto reason = row.not_judged.find(*level_from_name(unjudged.front()));
+  const bool all = std::all_of(rule.included.begin(), rule.included.end(),
+                               [&](const std::string& name) { return holds(claimed, name); });
+  if (!all || unjudged.empty())
+    return checked(rule, all, std::string(rule.measure->name) + " " + text::joined(claimed));
+  const auto reason = row.not_judged.find(unjudged.front());
   return cannot_judge(
-      rule, "level " + unjudged.front() + " is " +
+      rule, std::string("level ") + name_of(unjudged.front()) + " is " +
                 (reason != row.not_judged.end() ? reason->second
                                                 : "not judged: the scene does not ask for it"));
 }

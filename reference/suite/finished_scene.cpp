@@ -20,6 +20,8 @@ FinishedScene finished_scene(const results::Index& rows, const std::string& id,
     out.disagreements.back().case_file = copy.string();
   }
   if (!out.scene.contacts.empty()) out.contacts = read_text_file(folder / out.scene.contacts);
+  const auto hash = rows.results().identities.find(id);
+  if (hash != rows.results().identities.end()) out.hash = hash->second;
   return out;
 }
 

@@ -16,6 +16,8 @@ struct FinishedScene {
   std::vector<results::Run> runs;
   std::vector<results::Disagreement> disagreements;
   std::string contacts;  ///< text of contacts/SCENE.json; empty: there is no such file
+  /// Its entry in field `identities` (identity_hash in partial_results.h); empty: it has none.
+  std::string hash;
 };
 
 /// A scene of results that are complete, with copies in `scratch` of the case files that `folder`,

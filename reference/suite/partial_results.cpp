@@ -58,13 +58,13 @@ std::optional<PartialResults::File> PartialResults::read(const fs::path& path) c
     for (const char* list : {"scenes", "runs", "disagreements"}) file.at("results").at(list);
     results::Results results = results::from_json(file.at("results"));
     if (results.scenes.size() != 1) return std::nullopt;
-    const std::string hash = file.at("hash").get<std::string>();
     out.name = {results.scenes.front().id, file.at("identity").get<std::string>(),
                 file.at("command").get<std::string>()};
     out.scene = {std::move(results.scenes.front()), std::move(results.runs),
-                 std::move(results.disagreements), file.at("contacts").get<std::string>()};
+                 std::move(results.disagreements), file.at("contacts").get<std::string>(),
+                 file.at("hash").get<std::string>()};
     // A run that was stopped in the middle of the scene has left another recording.
-    if (identity_hash(out.name.identity, out.scene, out_) != hash) return std::nullopt;
+    if (identity_hash(out.name.identity, out.scene, out_) != out.scene.hash) return std::nullopt;
   } catch (const Json::exception&) {
     return std::nullopt;
   } catch (const InputError&) {
@@ -112,12 +112,12 @@ std::optional<FinishedScene> PartialResults::take_complete(const KeptScene& want
       // A damaged file is none.
     }
   }
-  const auto hash = complete_->identities.find(wanted.id);
   const results::Index rows(*complete_);
-  if (hash == complete_->identities.end() || rows.scene(wanted.id) == nullptr) return std::nullopt;
+  if (!complete_->identities.contains(wanted.id) || rows.scene(wanted.id) == nullptr)
+    return std::nullopt;
   try {
     FinishedScene scene = finished_scene(rows, wanted.id, out_, scratch_);
-    if (identity_hash(wanted.identity, scene, out_) == hash->second) return scene;
+    if (identity_hash(wanted.identity, scene, out_) == scene.hash) return scene;
   } catch (const InputError&) {
     // A file that the scene names is gone.
   }
@@ -133,7 +133,7 @@ void PartialResults::keep(const KeptScene& name, const FinishedScene& scene) con
   for (results::Disagreement& d : results.disagreements) d.case_file = read_text_file(d.case_file);
   const Json file = {{"schema", kSchema},
                      {"identity", name.identity},
-                     {"hash", identity_hash(name.identity, scene, out_)},
+                     {"hash", scene.hash},
                      {"command", name.command},
                      {"results", results::to_json(results)},
                      {"contacts", scene.contacts}};

@@ -36,7 +36,7 @@ class PartialResults {
   /// RunIdentity): an interrupted one, else the one whose results.json is there, which may be
   /// replaced before this run is complete: such a scene is kept here, too.
   std::optional<FinishedScene> take(const KeptScene& wanted);
-  /// @throws InputError when it cannot be written
+  /// @pre the scene has its hash. @throws InputError when it cannot be written
   void keep(const KeptScene& name, const FinishedScene& scene) const;
   /// Removes all of it, and the folder unless other files are in it.
   void clear() const;

@@ -217,7 +217,6 @@ class Merger {
     for (const ShardResults& shard : shards_) {
       whole.merged.push_back(shard.results.command);
       if (shard.results.resumed) whole.resumed.emplace();
-      whole.identities.insert(shard.results.identities.begin(), shard.results.identities.end());
     }
     const std::vector<results::ShardScene>& run = first.shard->scenes;
     for (std::size_t i = 0; i < run.size(); ++i) {

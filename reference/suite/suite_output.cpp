@@ -59,6 +59,7 @@ void SuiteOutput::write_contacts(FinishedScene& scene) const {
 
 void SuiteOutput::add(FinishedScene scene) {
   write_contacts(scene);
+  if (!scene.hash.empty()) identities_[scene.scene.id] = std::move(scene.hash);
   scenes_.push_back(std::move(scene.scene));
   append(std::move(scene.runs), runs_);
   append(std::move(scene.disagreements), disagreements_);
@@ -66,6 +67,7 @@ void SuiteOutput::add(FinishedScene scene) {
 
 Results SuiteOutput::write(Results results, const std::vector<results::Goal>& goals,
                            const results::KnownDefects& known_defects, SuiteOutcome* outcome) {
+  results.identities = std::move(identities_);
   results.scenes = std::move(scenes_);
   results.runs = std::move(runs_);
   results.disagreements = std::move(disagreements_);

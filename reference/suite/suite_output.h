@@ -31,6 +31,7 @@ class SuiteOutput {
 
  private:
   std::filesystem::path out_, scratch_;
+  results::Texts identities_;
   std::vector<results::Scene> scenes_;
   std::vector<results::Run> runs_;
   std::vector<results::Disagreement> disagreements_;

@@ -39,11 +39,7 @@ results::Results record_of(const SuiteRequest& request) {
   return record;
 }
 
-std::string named(const std::vector<std::string>& ids) {
-  constexpr std::size_t kMost = 5;
-  return text::first_joined(ids, kMost) +
-         (ids.size() > kMost ? " and " + std::to_string(ids.size() - kMost) + " more" : "");
-}
+constexpr std::size_t kMostNamed = 5;  // scenes
 
 // A class of another interpreter may be another one in the next run, under the same words.
 bool known_again(const results::Results& record, const SceneTask& task) {
@@ -73,14 +69,14 @@ void require_nothing_lost(const SuiteRequest& request, const RunIdentity& identi
                            text::counted(kept.size(), "finished scene") + " there";
   if (!other.empty())
     throw InputError(
-        left + ", of which " + named(other) + " " + (other.size() == 1 ? "is" : "are") +
-        " of another run (other " +
+        left + ", of which " + text::shortened(other, kMostNamed) + " " +
+        (other.size() == 1 ? "is" : "are") + " of another run (other " +
         text::joined(why, [](const std::string& name) { return name; }) + "): " + command +
-        (same.empty()
-             ? "; --overwrite discards them, another --out keeps them"
-             : "; --resume --overwrite takes over " + named(same) + " and discards the others"));
+        (same.empty() ? "; --overwrite discards them, another --out keeps them"
+                      : "; --resume --overwrite takes over " + text::shortened(same, kMostNamed) +
+                            " and discards the others"));
   if (!request.resume && !same.empty())
-    throw InputError(left + " (" + named(same) +
+    throw InputError(left + " (" + text::shortened(same, kMostNamed) +
                      "): --resume takes them over, --overwrite discards them");
 }
 
@@ -131,11 +127,11 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
     } else {
       report({});
       finished = run_scene(request, task, scratch.path(), listener, report);
-      if (request.keep && known_again(record, task))
-        partial.keep({task.id, identity.of(task), request.command}, finished);
+      if (known_again(record, task)) {
+        finished.hash = identity_hash(identity.of(task), finished, request.out);
+        if (request.keep) partial.keep({task.id, identity.of(task), request.command}, finished);
+      }
     }
-    if (known_again(record, task))
-      record.identities[task.id] = identity_hash(identity.of(task), finished, request.out);
     listener.scene_end({task.id, resumed_now, finished.runs});
     output.add(std::move(finished));
   }

@@ -35,4 +35,10 @@ inline std::string first_joined(const std::vector<std::string>& words, std::size
   return joined(std::vector<std::string>(words.begin(), end));
 }
 
+/// "a, b and 3 more": the first `most`, joined, and the number of the others.
+inline std::string shortened(const std::vector<std::string>& words, std::size_t most) {
+  return first_joined(words, most) +
+         (words.size() > most ? " and " + std::to_string(words.size() - most) + " more" : "");
+}
+
 }  // namespace contactcheck::text

@@ -83,7 +83,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string short_list(const std::vector<std::string>& names, std::size_t most) {
   if (names.size() <= most + 1) return listed(names);
-  return text::first_joined(names, most) + " and " + std::to_string(names.size() - most) + " more";
+  return text::shortened(names, most);
 }
 
 std::string format_counts(const Range& range) {

@@ -19,7 +19,6 @@ using results::PerFrame;
 struct DetectorSum {
   std::string level;
   std::size_t families = 0, right_families = 0, cases = 0, right = 0, failed = 0, refused = 0;
-  bool any_row = false;
   std::uint64_t missed = 0, spurious = 0;
   double milliseconds = 0.0;  // of the families timed
   std::size_t timed = 0;
@@ -31,12 +30,7 @@ struct DetectorSum {
     failed += result.failed();
     refused += result.refused();
     // Without an answer no case is right: leaving them out would praise who refuses them.
-    const bool absent = result.run.status == results::Status::kAbsent;
-    any_row |= absent;
-    if (absent) return;
-    // What asks for levels that it does not claim is not about it.
-    if (result.run.ok() && !result.judged()) return;
-    any_row = true;
+    if (result.run.status == results::Status::kAbsent) return;
     ++families;
     cases += result.cases();
     if (!result.judged()) return;
@@ -56,9 +50,6 @@ struct DetectorSum {
     slowest = time;
     slowest_family = result.scene.id;
   }
-
-  /// No family was about a level that it claims.
-  bool unasked() const { return !any_row; }
 
   std::vector<std::string> line(const std::string& detector) const {
     return {detector,
@@ -160,13 +151,14 @@ TitledTable hard_sums(const results::Index& index) {
   std::map<std::string, std::map<std::string, DetectorSum>> sums;
   std::vector<std::pair<std::string, std::string>> order;
   for (const FamilyResult& result : family_results(index)) {
+    // A family about levels that a detector does not claim is not about it.
+    if (result.run.ok() && !result.judged()) continue;
     const std::string kind = self_level_of(result.scene), detector = result.detector();
     if (sums[kind].count(detector) == 0) order.emplace_back(kind, detector);
     sums[kind][detector].add(result);
   }
   for (const auto& [kind, detector] : order)
-    if (const DetectorSum& sum = sums[kind][detector]; !sum.unasked())
-      out.rows.push_back(sum.line(detector));
+    out.rows.push_back(sums[kind][detector].line(detector));
   return out;
 }
 

@@ -275,15 +275,10 @@ std::string cheapest_sentence(const Index& index, const std::vector<Winner>& win
                             : total == 1 ? ""
                                          : fmt::format(" in all {} scenes", grouped_digits(total));
   std::vector<const Run*> runs;
-  double ms = 0.0, frames = 0.0;
-  for (const std::string& scene : best.scenes) {
-    runs.push_back(index.run(scene, best.detector));
-    const auto weight = static_cast<double>(std::max<std::size_t>(runs.back()->frames, 1));
-    ms += weight * times_in(*runs.back(), question)->playback.frame;
-    frames += weight;
-  }
+  for (const std::string& scene : best.scenes) runs.push_back(index.run(scene, best.detector));
   return fmt::format("{}{}{}, of {}, {} ms per frame{}", best.detector, where,
-                     over_reference(runs, question), what, format_number(ms / frames),
+                     over_reference(runs, question), what,
+                     format_number(mean_frame_ms(runs, false, question)),
                      others.empty() ? "" : "; " + listed(others));
 }
 

@@ -188,11 +188,14 @@ std::string TimedPart::cut_text() const {
   return timed_frames < frames ? " (" + frames_text() + ")" : "";
 }
 
-std::optional<double> mean_frame_ms(const std::vector<const Run*>& runs, bool cold) {
+std::optional<double> mean_frame_ms(const std::vector<const Run*>& runs, bool cold,
+                                    std::optional<Question> question) {
   double ms = 0.0, frames = 0.0;
   for (const Run* run : runs) {
-    const results::PhaseTimes* times =
-        run->times.empty() ? nullptr : phases_of(run->times.front(), cold);
+    const results::QuestionTimes* const asked = question             ? times_in(*run, *question)
+                                                : run->times.empty() ? nullptr
+                                                                     : &run->times.front();
+    const results::PhaseTimes* times = asked == nullptr ? nullptr : phases_of(*asked, cold);
     if (times == nullptr) return {};
     const auto n = static_cast<double>(run->frames);
     ms += n * times->frame;

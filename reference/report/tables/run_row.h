@@ -48,9 +48,10 @@ struct TimedPart {
   std::string cut_text() const;
 };
 
-/// Milliseconds per frame, in playback or cold: the mean over all frames of these runs, each with
-/// its own question. Nothing if one of them was not timed that way.
-std::optional<double> mean_frame_ms(const std::vector<const results::Run*>& runs, bool cold);
+/// Milliseconds per frame, in playback or cold: the mean over all frames of these runs, in
+/// `question`, or each in its own. Nothing if one of them was not timed that way.
+std::optional<double> mean_frame_ms(const std::vector<const results::Run*>& runs, bool cold,
+                                    std::optional<Question> question = {});
 
 /// "margin=0.001, scale=0"; "-" without options.
 std::string options_text(const results::Texts& options);

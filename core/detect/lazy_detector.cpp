@@ -193,16 +193,20 @@ void LazyDetector::know_patches(std::size_t index) {
 }
 
 void LazyDetector::find_self(std::vector<SelfPair>& out) {
-  LazyScratch& scratch = team_.scratch()[0];
-  std::vector<ElementPair> found;
   for (std::uint32_t body = 0; body < states_.size(); ++body) {
     if (!expects_self_) refuse_many_adjacent_pairs(states_[body].shape->linked());
     know_patches(body);
-    if (!bounded_[body]) bound(body, scratch);
+    if (!bounded_[body]) bound(body, team_.scratch()[0]);
     bounded_[body] = true;
-    kernels_.collide_self({{body, body}, states_[body], states_[body]}, false, scratch, found);
   }
-  for (const ElementPair& pair : found) out.push_back({pair.body_a, pair.a, pair.b});
+  own_found_.resize(states_.size());
+  team_.for_each(states_.size(), [this](std::size_t i, LazyScratch& scratch) {
+    const auto body = static_cast<std::uint32_t>(i);
+    own_found_[i].clear();
+    kernels_.collide_self({{body, body}, states_[i], states_[i]}, false, scratch, own_found_[i]);
+  });
+  for (const std::vector<ElementPair>& found : own_found_)
+    for (const ElementPair& pair : found) out.push_back({pair.body_a, pair.a, pair.b});
 }
 
 // Runs on one thread: the tests are the same.

@@ -81,6 +81,7 @@ class LazyDetector : public Detector {
   std::vector<bool> bounded_;  // per body: bound() was called in this frame
   bool expects_self_ = false;
   std::vector<ElementPair> found_;
+  std::vector<std::vector<ElementPair>> own_found_;  // per body, with itself
   ThreadTeam team_;
   PairTasks tasks_;
   std::vector<Body> bodies_;

@@ -33,13 +33,24 @@ void add_check(CommandLine& line) {
   check->add_flag("--repair", arguments->rules.repair,
                   "fill polygons that cross themselves by fans");
   check->add_flag("--weld", arguments->weld, "vertices at one place in the first frame are one");
-  check->add_option("--out", arguments->out, "folder of the page (default out)")->type_name("DIR");
+  check->add_option("--out", arguments->out, "folder of what is written (default out)")
+      ->type_name("DIR");
+  check
+      ->add_option("--keep", arguments->keep,
+                   "write OUT/frame-17.ccr, to judge detectors by; 3-4: both ends of a step")
+      ->allow_extra_args(false)
+      ->type_name("FRAME");
+  check->add_flag("--resume", arguments->resume,
+                  "take over frames that an earlier check has left in --out");
+  check->add_flag("--overwrite", arguments->overwrite,
+                  "discard what an interrupted check has left in --out");
   check->add_flag("--json-lines", arguments->json_lines, "events on standard output");
   check->add_flag("--quiet", arguments->quiet, "no progress bar");
   check->footer(
       "Exit code 1 when a frame, or with --between a step, has a contact that is not allowed.\n"
       "A contact of a certified surface depth up to METRES is allowed by --allow depth=METRES.\n"
       "With --allow impact, contacts between frames are listed and do not change the exit code.\n"
+      "check.html, check.csv and check.json in --out have every contact.\n"
       "Example:\n  contactcheck check cloth_*.obj ball.obj --allow depth=0.002");
   choose(*check, line, [arguments, &line] { return check_command(*arguments, line.catalog); });
 }

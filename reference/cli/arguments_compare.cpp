@@ -50,6 +50,9 @@ void add_ab(CommandLine& line) {
   add_ab_limits(*ab, *arguments);
   ab->add_option("--out", arguments->out, "folder for the last round's results (default out/ab)")
       ->type_name("DIR");
+  ab->add_flag("--resume", arguments->resume,
+               "take over the rounds of an interrupted comparison in --out");
+  ab->add_flag("--overwrite", arguments->overwrite, "discard them");
   ab->add_flag("--quiet", arguments->quiet, "print no progress");
   ab->footer(
       "Rounds are base head, head base, ..., each in fresh processes. A ratio is the geometric\n"
@@ -63,7 +66,10 @@ void add_ab(CommandLine& line) {
       "  contactcheck ab ./libmine-old.so ./libmine.so bunny-touch\n"
       "  contactcheck ab 'python3 old.py' 'python3 new.py' bunny-touch\n"
       "  contactcheck ab fcl-aabb embree contact");
-  choose(*ab, line, [arguments, &line] { return ab_command(*arguments, line.catalog); });
+  choose(*ab, line, [arguments, &line] {
+    arguments->command_line = line.words;
+    return ab_command(*arguments, line.catalog);
+  });
 }
 
 void add_diff(CommandLine& line) {

@@ -1,35 +1,46 @@
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
+#include "core/deform/atomic_file.h"
 #include "core/deform/recording.h"
 #include "core/types/check.h"
+#include "core/types/hash.h"
+#include "reference/check/check_files.h"
+#include "reference/check/check_log.h"
+#include "reference/check/check_page.h"
+#include "reference/check/check_summary.h"
+#include "reference/check/frame_words.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/event_lines.h"
+#include "reference/cli/kept_work.h"
 #include "reference/cli/progress_display.h"
-#include "reference/cli/run_and_report.h"
-#include "reference/cli/step_report.h"
 #include "reference/judge/frame_check.h"
-#include "reference/process/exit_codes.h"
+#include "reference/judge/step_check.h"
+#include "reference/process/interrupts.h"
+#include "reference/report/formats/html.h"
+#include "reference/results/results.h"
 #include "reference/scene/frame_files.h"
+#include "reference/scene/read_ahead.h"
+#include "reference/suite/out_lock.h"
 #include "reference/text/counted.h"
 #include "reference/text/file_text.h"
 #include "reference/text/lists.h"
 #include "reference/text/shell_word.h"
+#include "reference/text/words.h"
 
 namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-using judge::AllowedContact, judge::BadFrame, judge::StepContact;
+using check::Allowed, check::CheckedFrame, check::CheckLog, check::CheckSummary, check::FrameWords,
+    check::Json;
 using text::counted;
 
 Allowed allowed_by(const std::vector<std::string>& words) {
@@ -55,207 +66,8 @@ Allowed allowed_by(const std::vector<std::string>& words) {
   return out;
 }
 
-/// What is said of the frames, to a person or to a program.
-class CheckReport {
- public:
-  CheckReport(const scene::Scene& scene, const scene::FrameFiles& files, const FrameNames& frames,
-              bool json_lines)
-      : scene_(scene),
-        frames_(frames),
-        shown_(files.shown),
-        unchecked_(files.unchecked),
-        json_(json_lines) {}
-
-  void start(const CheckArguments& arguments) const {
-    Json bodies = Json::array();
-    std::string text;
-    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-      const TriangleMesh& mesh = scene_.bodies[b].shape->mesh;
-      bodies.push_back({{"name", scene_.bodies[b].name},
-                        {"vertices", mesh.vertices.size()},
-                        {"triangles", mesh.triangles.size()}});
-      text += scene_.bodies[b].name + ": " + std::to_string(mesh.triangles.size()) + " triangles" +
-              (b < shown_.size() ? ", " + shown_[b] : "") +
-              (scene_.origins[b].notes.empty() ? "" : "; " + scene_.origins[b].notes) + "\n";
-    }
-    if (json_) {
-      print_event({{"event", "start"},
-                   {"schema", "contactcheck-events/1"},
-                   {"version", CONTACTCHECK_VERSION},
-                   {"out", arguments.out.string()},
-                   {"frames", scene_.frames},
-                   {"unchecked", unchecked_},
-                   {"bodies", bodies}});
-    } else {
-      if (!unchecked_.empty()) text += unchecked_text();
-      std::printf("%s%s\n", text.c_str(), counted(scene_.frames, "frame").c_str());
-    }
-  }
-
-  void frame(const BadFrame& bad) {
-    ++bad_;
-    if (!first_) {
-      first_ = bad.frame;
-      first_words_ = bad.pairs.empty() ? sentence(bad.selfs.front()) : sentence(bad.pairs.front());
-    }
-    for (const BadFrame::Pair& pair : bad.pairs) {
-      if (pair.depth.unknown)
-        unknown_depth_ = true;
-      else if (pair.depth.lower > 0.0 &&
-               (!deepest_ || pair.depth.upper > deepest_->second.depth.upper))
-        deepest_ = {bad.frame, pair};
-    }
-    if (json_) return print_event(json_of(bad));
-    if (bad_ > kMostShown) return;
-    std::printf("\n%s\n", frames_.place(bad.frame).c_str());
-    for (const BadFrame::Pair& pair : bad.pairs) std::printf("  %s\n", sentence(pair).c_str());
-    for (const BadFrame::Self& self : bad.selfs) std::printf("  %s\n", sentence(self).c_str());
-    std::fflush(stdout);
-  }
-
-  std::size_t bad_frames() const { return bad_; }
-  /// For the page. @pre bad_frames() > 0
-  results::Finding finding() const {
-    return {count_text(), frames_.place(*first_) + ", " + first_words_};
-  }
-  std::optional<std::size_t> first() const { return first_; }
-
-  /// `open`: see FrameChecker; `steps` and `checker`: null without --between.
-  void end(const CheckArguments& arguments, const judge::OpenBodies& open, int exit_code,
-           const std::string& page, const StepReport* steps,
-           const judge::StepChecker* checker) const {
-    Json not_judged = Json::array();
-    std::string not_judged_text;
-    for (const auto& [body, why] : open) {
-      not_judged.push_back({{"body", name(body)}, {"level", "containment"}, {"reason", why}});
-      not_judged_text += name(body) + ": containment and depth in it not judged: " + why + "\n";
-    }
-    if (json_) {
-      Json event = {{"event", "end"},
-                    {"out", arguments.out.string()},
-                    {"bad_frames", bad_},
-                    {"first", first_ ? Json(*first_) : Json(nullptr)},
-                    {"not_judged", not_judged}};
-      if (steps != nullptr) event["between"] = steps->end_json(*checker);
-      event["exit_code"] = exit_code;
-      return print_event(event);
-    }
-    if (bad_ > kMostShown)
-      std::printf("\n... and %s\n", counted(bad_ - kMostShown, "more frame").c_str());
-    if (bad_ == 0 && steps != nullptr && steps->printed()) std::printf("\n");
-    if (bad_ == 0) std::printf("no frame has a contact that is not allowed\n");
-    std::printf("%s", not_judged_text.c_str());
-    if (bad_ > 0)
-      std::printf("\n%s, the first is %s\n", count_text().c_str(), frames_.place(*first_).c_str());
-    if (deepest_)
-      std::printf("%s: %s, %s\n", unknown_depth_ ? "deepest of known depth" : "deepest",
-                  frames_.place(deepest_->first).c_str(), sentence(deepest_->second).c_str());
-    if (steps != nullptr) steps->print_end(*checker);
-    if (!page.empty()) std::printf("%s shows it\n", page.c_str());
-  }
-
- private:
-  std::string count_text() const {
-    return std::to_string(bad_) + " of " + counted(scene_.frames, "frame") +
-           (bad_ == 1 ? " has" : " have") + " a contact that is not allowed";
-  }
-  std::string unchecked_text() const {
-    constexpr std::size_t kMostNamed = 4;
-    return "not checked, because not every body has that frame: " +
-           text::first_joined(unchecked_, kMostNamed) +
-           (unchecked_.size() > kMostNamed
-                ? " and " + counted(unchecked_.size() - kMostNamed, "more file")
-                : "") +
-           "\n";
-  }
-  const std::string& name(std::uint32_t body) const { return scene_.bodies[body].name; }
-
-  static std::string pairs_text(std::size_t pairs, const std::array<std::uint32_t, 2>& first) {
-    return counted(pairs, "pair") + " of triangles, first " + std::to_string(first[0]) + " and " +
-           std::to_string(first[1]);
-  }
-
-  std::string sentence(const BadFrame::Pair& pair) const {
-    std::string out = name(pair.bodies.a) + " and " + name(pair.bodies.b) + ": ";
-    out += pair.first ? pairs_text(pair.triangles, *pair.first) : "one is inside the other";
-    return out + ", " + depth_text(pair.depth);
-  }
-
-  std::string depth_text(const oracle::SurfaceDepth& depth) const {
-    if (depth.unknown)
-      return "depth unknown: " + name(depth.unknown->body) + ": " +
-             oracle::describe(depth.unknown->fault,
-                              scene_.bodies[depth.unknown->body].shape->given);
-    const auto [factor, unit] =
-        depth.upper < 1.0 ? std::pair(1e3, " mm deep") : std::pair(1.0, " m deep");
-    const std::string upper = fmt::format("{:.3g}", factor * depth.upper) + unit;
-    // Three digits say no more than an interval of a thousandth does.
-    if (depth.upper - depth.lower <= 1e-3 * depth.upper) return upper;
-    if (depth.lower == 0.0) return "at most " + upper;
-    return fmt::format("{:.3g} to ", factor * depth.lower) + upper;
-  }
-
-  std::string sentence(const BadFrame::Self& self) const {
-    std::size_t all = 0;
-    std::string classes;
-    for (const auto& [level, count] : self.pairs) {
-      all += count;
-      classes += (classes.empty() ? "" : ", ") + std::to_string(count) +
-                 (level == Level::kSelf         ? " without a shared vertex"
-                  : level == Level::kSelfVertex ? " that share a corner"
-                                                : " that share an edge");
-    }
-    return name(self.body) + " with itself: " + pairs_text(all, self.first) + " (" + classes + ")";
-  }
-
-  static Json depth_json(const oracle::SurfaceDepth& depth) {
-    if (depth.unknown) return nullptr;
-    return {{"lower", depth.lower}, {"upper", depth.upper}};
-  }
-
-  Json unknown_json(const oracle::SurfaceDepth& depth) const {
-    if (!depth.unknown) return nullptr;
-    const auto& [body, fault] = *depth.unknown;
-    Json out = {{"body", name(body)}, {"reason", oracle::name_of(fault.kind)}};
-    if (fault.kind == oracle::NotSimple::kOpen) out["edge"] = {fault.edge.from, fault.edge.to};
-    return out;
-  }
-
-  Json json_of(const BadFrame& bad) const {
-    Json contacts = Json::array(), selfs = Json::array();
-    for (const BadFrame::Pair& pair : bad.pairs)
-      contacts.push_back({{"bodies", {name(pair.bodies.a), name(pair.bodies.b)}},
-                          {"triangle_pairs", pair.triangles},
-                          {"first", pair.first ? Json(*pair.first) : Json(nullptr)},
-                          {"depth", depth_json(pair.depth)},
-                          {"depth_unknown", unknown_json(pair.depth)}});
-    for (const BadFrame::Self& self : bad.selfs) {
-      Json one = {{"body", name(self.body)}};
-      for (const Level level : kSelfClasses)
-        one[name_of(level)] = self.pairs.contains(level) ? self.pairs.at(level) : 0;
-      one["first"] = self.first;
-      selfs.push_back(std::move(one));
-    }
-    return {{"event", "frame"},
-            {"frame", bad.frame},
-            {"file", frames_.file(bad.frame)},
-            {"contacts", std::move(contacts)},
-            {"self", std::move(selfs)}};
-  }
-
-  const scene::Scene& scene_;
-  const FrameNames& frames_;
-  std::vector<std::string> shown_, unchecked_;
-  bool json_;
-  std::size_t bad_ = 0;
-  std::optional<std::size_t> first_;
-  std::string first_words_;
-  std::optional<std::pair<std::size_t, BadFrame::Pair>> deepest_;  // of known depth above 0
-  bool unknown_depth_ = false;                                     // of any pair
-};
-
 // The levels that are left to be judged.
-std::vector<Level> levels_of(const AllowedContact& allowed) {
+std::vector<Level> levels_of(const judge::AllowedContact& allowed) {
   std::vector<Level> levels;
   for (const Level level : {Level::kBody, Level::kContainment, Level::kTriangle})
     if (!allowed.contact) levels.push_back(level);
@@ -264,76 +76,275 @@ std::vector<Level> levels_of(const AllowedContact& allowed) {
   return levels;
 }
 
-/// What the page shows.
-struct PageSubject {
-  std::string id;
-  std::vector<std::size_t> frames;
-  std::vector<Level> levels;
-  std::vector<std::string> detectors;
-  results::Finding finding;
+/// What is checked.
+struct Subject {
+  scene::FrameFiles files;
+  scene::Scene scene;
+  fs::path recording;  ///< of all frames, if it is one
+
+  std::string stamp(std::size_t frame) const {
+    std::vector<fs::path> parts = files.caches;
+    if (!recording.empty()) parts.push_back(recording);
+    if (frame < files.moving.size())
+      parts.insert(parts.end(), files.moving[frame].begin(), files.moving[frame].end());
+    return check::stamp_of(parts);
+  }
 };
 
-/// The first frame that is not allowed, else both ends of the first step.
-PageSubject page_subject(const CheckReport& frames, const StepReport& steps,
-                         const scene::Scene& scene) {
-  PageSubject out{{}, {}, scene.levels, {judge::kFrameDetector}, {}};
-  if (frames.first()) {
-    out.id = "frame-" + std::to_string(*frames.first());
-    out.frames = {*frames.first()};
-    out.finding = frames.finding();
-    if (steps.is_bad()) {
-      out.finding.title += ", and " + steps.finding().title;
-      out.finding.first += "; " + steps.finding().first;
+Subject subject_of(const CheckArguments& arguments, const std::vector<Level>& levels) {
+  Subject out;
+  if (arguments.frames.size() == 1 && arguments.frames[0].extension() == ".ccr") {
+    out.recording = arguments.frames[0];
+    out.scene = scene::load_any_scene(out.recording);
+  } else {
+    out.files = scene::frame_files(arguments.frames, arguments.rules, "check", levels);
+    out.scene = scene::load_scene_unread(out.files.scene);
+    if (out.scene.read_frame) {
+      const auto ahead = std::make_shared<scene::ReadAhead>(out.scene.read_frame, out.scene.frames);
+      out.scene.read_frame = [ahead](std::size_t frame) { return (*ahead)(frame); };
     }
-    return out;
   }
-  const std::size_t step = steps.first();
-  out.id = "frames-" + std::to_string(step) + "-" + std::to_string(step + 1);
-  out.frames = {step, step + 1};
-  out.finding = steps.finding();
-  out.detectors.push_back(judge::kStepDetector);
-  const bool between =
-      std::ranges::any_of(scene.levels, [](Level level) { return !is_self(level); });
-  for (const Level level : kLevels)
-    if (is_impact(level) && (is_self_impact(level) ? steps.first_has_own() : between))
-      out.levels.push_back(level);
+  out.scene.levels = levels;
+  if (out.scene.bodies.size() == 1)
+    std::erase_if(out.scene.levels, [](Level level) { return !is_self(level); });
+  if (out.scene.levels.empty())
+    throw InputError("--allow self leaves nothing to be checked of one body");
+  if (arguments.weld) scene::weld(out.scene);
+  scene::refuse_crowded_vertices(out.scene);
+  if (arguments.between && out.scene.frames < 2)
+    throw InputError("--between looks from frame to frame, and here is one frame");
+  if (arguments.between) refuse_left_out(out.files);
   return out;
 }
 
-/// The page: a run of its own, on a recording of the frames. Returns its path; a build without npm
-/// has no page, but a report.
-fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
-                    const std::string& files, PageSubject subject, const DetectorCatalog& catalog) {
+// The words that decide what is found.
+std::string option_words(const CheckArguments& arguments) {
+  std::string out = std::string(arguments.between ? " --between" : "") +
+                    (arguments.weld ? " --weld" : "") + (arguments.rules.repair ? " --repair" : "");
+  for (const std::string& pattern : arguments.rules.patterns)
+    out += " --frames " + text::in_shell(pattern);
+  if (!arguments.rules.cache_space.empty()) out += " --cache-space " + arguments.rules.cache_space;
+  for (const std::string& word : arguments.allow) out += " --allow " + text::in_shell(word);
+  return out;
+}
+
+std::string command_of(const CheckArguments& arguments, const Subject& subject) {
+  std::string out = "contactcheck check";
+  if (!subject.recording.empty()) out += " " + text::in_shell(subject.recording.string());
+  for (const std::string& word : subject.files.shown) out += " " + word;
+  return out + option_words(arguments);
+}
+
+// Frames may be added: each has a stamp of its own.
+std::string identity_of_check(const CheckArguments& arguments, const Subject& subject) {
+  Fnv1a hash;
+  for (const Body& body : subject.scene.bodies) {
+    hash.bytes(body.name.data(), body.name.size());
+    hash.value(content_hash(body.shape->mesh));
+  }
+  return identity_of("bodies: " + results::hex(hash.digest()) +
+                     "\noptions: " + option_words(arguments) + "\n");
+}
+
+/// The frames that an earlier check of the same has left in --out.
+std::vector<CheckedFrame> taken_over(const CheckArguments& arguments, const Subject& subject,
+                                     const std::string& identity, const fs::path& file) {
+  CheckLog log = CheckLog::read(file);
+  const bool same = log.identity == identity;
+  if (!log.ended && !log.frames.empty())
+    require_nothing_lost(
+        arguments.out,
+        {"an interrupted check has left " + counted(log.frames.size(), "checked frame"),
+         log.identity, log.command},
+        identity, arguments.resume, arguments.overwrite);
+  if (!arguments.resume) return {};
+  std::size_t good = 0;
+  while (same && good < log.frames.size() && good < subject.scene.frames &&
+         log.frames[good].stamp == subject.stamp(good))
+    ++good;
+  const std::size_t had = log.frames.size();
+  log.frames.resize(good);
+  if (!arguments.quiet)
+    std::fprintf(stderr, "resumed: %s of %s, checked in %s%s\n", std::to_string(good).c_str(),
+                 counted(subject.scene.frames, "frame").c_str(), file.c_str(),
+                 good < had && good < subject.scene.frames
+                     ? same ? "; the files of the next one have changed"
+                            : "; the others are of another check"
+                     : "");
+  return std::move(log.frames);
+}
+
+/// What is said while frames are checked, to a person or to a program.
+class Teller {
+ public:
+  Teller(const Subject& subject, const FrameWords& words, const CheckSummary& summary,
+         const CheckArguments& arguments)
+      : subject_(subject), words_(words), summary_(summary), json_(arguments.json_lines) {}
+
+  void start(const Json& event) const {
+    if (json_) return say(event);
+    std::string text;
+    const scene::Scene& scene = subject_.scene;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      text += scene.bodies[b].name + ": " +
+              counted(scene.bodies[b].shape->mesh.triangles.size(), "triangle") +
+              (b < subject_.files.shown.size() ? ", " + subject_.files.shown[b] : "") +
+              (scene.origins[b].notes.empty() ? "" : "; " + scene.origins[b].notes) + "\n";
+    constexpr std::size_t kMostNamed = 4;
+    const std::vector<std::string>& unchecked = subject_.files.unchecked;
+    if (!unchecked.empty())
+      text += "not checked, because not every body has that frame: " +
+              text::first_joined(unchecked, kMostNamed) +
+              (unchecked.size() > kMostNamed
+                   ? " and " + counted(unchecked.size() - kMostNamed, "more file")
+                   : "") +
+              "\n";
+    std::printf("%s%s\n", text.c_str(), counted(scene.frames, "frame").c_str());
+    std::fflush(stdout);
+  }
+
+  /// After the frame was added to the summary.
+  void frame(const CheckedFrame& frame) const {
+    if (json_) {
+      if (!frame.step.event.is_null()) say(frame.step.event);
+      if (!frame.here.event.is_null()) say(frame.here.event);
+      return;
+    }
+    if (summary_.found_in_step(frame) && summary_.found_steps() <= check::kMostShown)
+      contacts(words_.places(frame.frame - 1), frame.step.words);
+    if (!frame.here.event.is_null() && summary_.bad_frames() <= check::kMostShown)
+      contacts(words_.place(frame.frame), frame.here.words);
+  }
+
+  void say(const Json& event) const {
+    EventLines(true).print(event.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+
+ private:
+  static void contacts(const std::string& place, const std::vector<std::string>& sentences) {
+    std::printf("\n%s\n", place.c_str());
+    for (const std::string& sentence : sentences) std::printf("  %s\n", sentence.c_str());
+    std::fflush(stdout);
+  }
+
+  const Subject& subject_;
+  const FrameWords& words_;
+  const CheckSummary& summary_;
+  bool json_;
+};
+
+Json start_event(const CheckArguments& arguments, const Subject& subject) {
+  Json bodies = Json::array();
+  for (const Body& body : subject.scene.bodies)
+    bodies.push_back({{"name", body.name},
+                      {"vertices", body.shape->mesh.vertices.size()},
+                      {"triangles", body.shape->mesh.triangles.size()}});
+  return {{"event", "start"},
+          {"schema", "contactcheck-events/1"},
+          {"version", CONTACTCHECK_VERSION},
+          {"out", arguments.out.string()},
+          {"frames", subject.scene.frames},
+          {"unchecked", subject.files.unchecked},
+          {"bodies", std::move(bodies)}};
+}
+
+/// How far it is, on standard error: a bar on a terminal, now and then a line elsewhere.
+class Progress {
+ public:
+  Progress(const CheckArguments& arguments, const scene::Scene& scene, std::size_t first)
+      : display_(arguments.quiet || !kTerminal(), true),
+        events_(arguments.json_lines),
+        quiet_(arguments.quiet || kTerminal() || arguments.json_lines),
+        frames_(scene.frames),
+        first_(first),
+        id_(scene.id) {}
+
+  void frame(std::size_t f) {
+    suite::SuiteProgress progress{0,
+                                  1,
+                                  id_,
+                                  judge::kFrameDetector,
+                                  static_cast<std::uint32_t>(f),
+                                  frames_,
+                                  static_cast<double>(f) / static_cast<double>(frames_)};
+    const auto now = std::chrono::steady_clock::now();
+    const auto left =
+        seconds_left(std::chrono::duration<double>(now - start_).count(),
+                     static_cast<double>(first_) / static_cast<double>(frames_), progress.share);
+    display_.show(progress, left);
+    if (events_.wanted()) events_.progress(progress, left);
+    if (quiet_ || now - said_ < kInterval) return;
+    said_ = now;
+    std::fprintf(stderr, "%zu of %zu frames are checked%s\n", f, frames_,
+                 left ? (", " + time_left_text(*left)).c_str() : "");
+  }
+  void finish() { display_.finish(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr auto kInterval = std::chrono::seconds(10);
+  static bool kTerminal() { return isatty(STDERR_FILENO) != 0; }
+
+  ProgressDisplay display_;
+  EventLines events_;
+  bool quiet_;
+  std::size_t frames_, first_;
+  std::string id_;
+  Clock::time_point start_ = Clock::now(), said_ = start_;
+};
+
+/// "17" or "36-37": the frame, or the two of a step.
+std::vector<std::size_t> kept_frames(const std::string& word, std::size_t frames) {
+  const std::size_t dash = word.find('-');
+  const auto first = text::whole_number<std::size_t>(word.substr(0, dash));
+  const auto last =
+      dash == std::string::npos ? first : text::whole_number<std::size_t>(word.substr(dash + 1));
+  if (!first || !last || *last >= frames || *last - *first > 1)
+    throw InputError("--keep " + text::in_quotes(word) + " is neither a frame, from 0 to " +
+                     std::to_string(frames - 1) + ", nor two that follow, as 3-4");
+  return *first == *last ? std::vector{*first} : std::vector{*first, *last};
+}
+
+// A recording to judge detectors by. `own`: the step has contact within a body.
+void keep(const std::vector<std::size_t>& frames, bool own, const scene::Scene& scene,
+          const fs::path& out) {
   Recording recording;
-  recording.scene = subject.id;
+  recording.scene = frames.size() == 1
+                        ? "frame-" + std::to_string(frames[0])
+                        : "frames-" + std::to_string(frames[0]) + "-" + std::to_string(frames[1]);
   recording.bodies = scene.bodies;
   recording.time_step = scene.time_step;
-  recording.levels = subject.levels;
-  for (const std::size_t frame : subject.frames)
-    recording.frames.push_back(scene.nodes_of_frame(frame));
-  const fs::path file = arguments.out / (recording.scene + ".ccr");
-  write_recording(file, recording);
-  RunArguments run;
-  run.targets = {file.string()};
-  run.detectors = subject.detectors;
-  run.timing = false;
-  run.quiet = true;
-  run.finding = std::move(subject.finding);
-  run.out = arguments.out;
-  run.keep = false;  // what an interrupted `run` has left there stays
-  run.command_line = "contactcheck check" + files + (arguments.between ? " --between" : "") +
-                     (arguments.weld ? " --weld" : "") +
-                     (arguments.rules.repair ? " --repair" : "");
-  for (const std::string& pattern : arguments.rules.patterns)
-    run.command_line += " --frames " + text::in_shell(pattern);
-  if (!arguments.rules.cache_space.empty())
-    run.command_line += " --cache-space " + arguments.rules.cache_space;
-  for (const std::string& word : arguments.allow)
-    run.command_line += " --allow " + text::in_shell(word);
-  suite::SuiteOutcome outcome;
-  run_and_report(run, catalog, &outcome);
-  const fs::path page = arguments.out / "report.html";
-  return fs::exists(page) ? page : arguments.out / "report.md";
+  recording.levels = scene.levels;
+  const bool others = std::ranges::any_of(scene.levels, [](Level l) { return !is_self(l); });
+  for (const Level level : kLevels)
+    if (frames.size() > 1 && is_impact(level) && (is_self_impact(level) ? own : others))
+      recording.levels.push_back(level);
+  for (const std::size_t frame : frames) recording.frames.push_back(scene.nodes_of_frame(frame));
+  write_recording(out / (recording.scene + ".ccr"), recording);
+}
+
+// Those that were asked for, and the first that is not allowed.
+void write_recordings(const std::vector<std::vector<std::size_t>>& wanted,
+                      const CheckSummary& summary, const scene::Scene& scene, const fs::path& out) {
+  const auto has_own = [](const CheckedFrame& frame) {
+    return !frame.step.event.is_null() &&
+           std::ranges::any_of(frame.step.event.at("contacts"), [](const Json& c) {
+             return c.at("bodies").at(0) == c.at("bodies").at(1);
+           });
+  };
+  for (const std::vector<std::size_t>& frames : wanted)
+    keep(frames,
+         std::ranges::any_of(summary.listed(),
+                             [&](const CheckedFrame& frame) {
+                               return frame.frame == frames.back() && has_own(frame);
+                             }),
+         scene, out);
+  const CheckedFrame* first = summary.first_bad();
+  if (first == nullptr) return;
+  if (!first->here.event.is_null() && summary.bad_frames() > 0)
+    keep({first->frame}, false, scene, out);
+  else
+    keep({first->frame - 1, first->frame}, has_own(*first), scene, out);
 }
 
 }  // namespace
@@ -345,70 +356,84 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   const std::vector<Level> levels = levels_of(allowed);
   if (levels.empty())
     throw InputError("--allow contact and --allow self leave nothing to be checked");
+  const Subject subject = subject_of(arguments, levels);
+  const scene::Scene& scene = subject.scene;
+  std::vector<std::vector<std::size_t>> kept;
+  for (const std::string& word : arguments.keep) kept.push_back(kept_frames(word, scene.frames));
   check_out(arguments.out);
-  scene::FrameFiles files;
-  scene::Scene scene;
-  if (arguments.frames.size() == 1 && arguments.frames[0].extension() == ".ccr") {
-    scene = scene::load_any_scene(arguments.frames[0]);
-  } else {
-    files = scene::frame_files(arguments.frames, arguments.rules, "check", levels);
-    scene = scene::load_scene_text(files.scene);
-  }
-  scene.levels = levels;
-  if (scene.bodies.size() == 1)
-    std::erase_if(scene.levels, [](Level level) { return !is_self(level); });
-  if (scene.levels.empty())
-    throw InputError("--allow self leaves nothing to be checked of one body");
-  if (arguments.weld) scene::weld(scene);
-  scene::refuse_crowded_vertices(scene);
+  const suite::OutLock lock(arguments.out);
 
-  if (arguments.between && scene.frames < 2)
-    throw InputError("--between looks from frame to frame, and here is one frame");
-  if (arguments.between) refuse_left_out(files);
-
-  const FrameNames names{files.labels};
-  CheckReport report(scene, files, names, arguments.json_lines);
-  StepReport steps(scene, names, allowed, arguments.json_lines);
-  report.start(arguments);
+  const std::string identity = identity_of_check(arguments, subject),
+                    command = command_of(arguments, subject);
+  const fs::path log_file = arguments.out / "check.jsonl";
+  const std::vector<CheckedFrame> taken = taken_over(arguments, subject, identity, log_file);
+  const FrameWords words(scene, subject.files.labels, allowed);
+  CheckSummary summary(scene, words, allowed, arguments.between);
+  const Teller teller(subject, words, summary, arguments);
+  const Json start = start_event(arguments, subject);
+  teller.start(start);
+  check::CheckLogWriter log(log_file, identity, command, taken);
+  process::say_when_interrupted(
+      "contactcheck: interrupted; checked frames are kept: repeat the command with --resume to go "
+      "on\n");
   judge::FrameChecker checker(scene, allowed, catalog);
-  std::optional<judge::StepChecker> step_checker;
-  if (arguments.between) step_checker.emplace(scene, allowed, catalog);
-  judge::FrameContacts before;
-  ProgressDisplay display(arguments.quiet || isatty(STDERR_FILENO) == 0, true);
-  EventLines events(arguments.json_lines);
-  const auto start = std::chrono::steady_clock::now();
-  for (std::size_t f = 0; f < scene.frames; ++f) {
-    suite::SuiteProgress progress{0,
-                                  1,
-                                  scene.id,
-                                  judge::kFrameDetector,
-                                  static_cast<std::uint32_t>(f),
-                                  scene.frames,
-                                  static_cast<double>(f) / static_cast<double>(scene.frames)};
-    const double elapsed =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const std::optional<double> left = seconds_left(elapsed, 0.0, progress.share);
-    display.show(progress, left);
-    if (events.wanted()) events.progress(progress, left);
-    const std::optional<BadFrame> bad = checker.check(f);
-    std::vector<StepContact> found;
-    if (step_checker && f > 0) found = step_checker->check(f - 1, before, checker.contacts());
-    before = checker.contacts();
-    if (bad || !found.empty()) display.finish();
-    if (!found.empty()) steps.step(f - 1, found);
-    if (bad) report.frame(*bad);
+  std::optional<judge::StepChecker> steps;
+  if (arguments.between) steps.emplace(scene, allowed, catalog);
+  for (const CheckedFrame& frame : taken) {
+    summary.add(frame);
+    teller.frame(frame);
   }
-  display.finish();
-  fs::path page;
-  if (report.first() || steps.is_bad()) {
-    std::string words =
-        files.shown.empty() ? " " + text::in_shell(arguments.frames[0].string()) : "";
-    for (const std::string& word : files.shown) words += " " + word;
-    page = write_page(arguments, scene, words, page_subject(report, steps, scene), catalog);
+  if (!taken.empty()) {
+    checker.resume(taken.back().contacts, taken.back().open);
+    if (steps) steps->resume(taken.back().totals);
   }
-  const int code = report.bad_frames() > 0 || steps.is_bad() ? 1 : 0;
-  report.end(arguments, checker.open(), code, page.string(), arguments.between ? &steps : nullptr,
-             step_checker ? &*step_checker : nullptr);
+
+  Progress progress(arguments, scene, taken.size());
+  // Taken before the frame is read, ahead of its turn: what changes later is then seen.
+  std::string stamp = subject.stamp(taken.size());
+  for (std::size_t f = taken.size(); f < scene.frames; ++f) {
+    progress.frame(f);
+    const judge::FrameContacts before = checker.contacts();
+    CheckedFrame frame;
+    frame.frame = f;
+    frame.stamp = std::exchange(stamp, subject.stamp(f + 1));
+    if (const auto bad = checker.check(f)) frame.here = words.of_frame(*bad);
+    frame.contacts = checker.contacts();
+    frame.open = checker.open();
+    if (steps && f > 0) {
+      const auto found = steps->check(f - 1, before, frame.contacts);
+      if (!found.empty()) frame.step = words.of_step(f - 1, found);
+      frame.totals = steps->totals();
+    }
+    log.add(frame);
+    summary.add(frame);
+    if (!frame.here.event.is_null() || !frame.step.event.is_null()) progress.finish();
+    teller.frame(frame);
+  }
+  progress.finish();
+
+  write_recordings(kept, summary, scene, arguments.out);
+  const int code = summary.bad() ? 1 : 0;
+  write_file_atomically(arguments.out / "check.csv", check::check_csv(summary));
+  write_file_atomically(arguments.out / "check.json",
+                        check::check_json(summary, command, start, code)
+                                .dump(1, ' ', false, Json::error_handler_t::replace) +
+                            "\n");
+  const fs::path page = arguments.out / "check.html";
+  if (report::has_html_report())
+    write_file_atomically(page,
+                          check::check_page(scene, words, summary, command, subject.files.shown));
+  log.end(code);
+  if (arguments.json_lines) {
+    Json end = {{"event", "end"}, {"out", arguments.out.string()}};
+    end.update(summary.event());
+    end["exit_code"] = code;
+    teller.say(end);
+  } else {
+    std::printf("%s", summary.text().c_str());
+    const fs::path& shows = report::has_html_report() ? page : arguments.out / "check.csv";
+    if (summary.bad()) std::printf("%s shows it\n", shows.c_str());
+  }
   return code;
 }
 

@@ -31,15 +31,13 @@ struct RunArguments : suite::RunTargets {
   std::filesystem::path out = "out";
   std::optional<suite::Shard> shard;  ///< run only this part
   bool timing = true, quiet = false, resume = false, overwrite = false;
-  bool keep = true;          ///< finished scenes, in case the run is interrupted
   bool explain = false;      ///< what the columns mean
   bool reduce = false;       ///< reduce the first wrong answers after the run
   bool json_lines = false;   ///< write events to stdout, and nothing else
   bool closed_loop = false;  ///< simulated scenes: drive them with every detector too
   double call_limit = suite::RunSettings{}.call_limit;  ///< seconds
   std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
-  std::string command_line;                 ///< for the record
-  std::optional<results::Finding> finding;  ///< the finding of `check`, for the page
+  std::string command_line;  ///< for the record
 };
 
 struct ExportArguments {
@@ -87,7 +85,9 @@ struct AbArguments {
   double slower_than = 1.1;  ///< time(head) / time(base) that is allowed
   double floor_us = 20.0;    ///< microseconds a frame that do not matter
   bool accuracy_may_change = false, quiet = false, github = false;
+  bool resume = false, overwrite = false;  ///< rounds of an interrupted comparison
   std::filesystem::path out = "out/ab";
+  std::string command_line;  ///< for the record
 };
 
 struct TuneArguments {
@@ -115,6 +115,8 @@ struct CheckArguments {
   scene::FrameRules rules;                    ///< which files are frames of what
   bool between = false;                       ///< look for contact between frames, too
   bool weld = false, quiet = false, json_lines = false;
+  bool resume = false, overwrite = false;  ///< as of `run`, by frames
+  std::vector<std::string> keep;           ///< frames to be written: "17", or both of a step, "3-4"
   std::filesystem::path out = "out";
 };
 

@@ -21,19 +21,6 @@ std::string bar(double share) {
   return "[" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "]";
 }
 
-// "1:02:03 left", "2:03 left"
-std::string time_left_text(double seconds) {
-  const long whole = std::lround(std::min(seconds, 1e6));
-  char text[48];
-  if (whole < 3600) {
-    std::snprintf(text, sizeof text, "%ld:%02ld left", whole / 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld left", whole / 3600, whole / 60 % 60,
-                  whole % 60);
-  }
-  return text;
-}
-
 // A line that is broken cannot be drawn again in its place.
 std::size_t columns_of_terminal() {
   struct winsize size = {};
@@ -47,6 +34,18 @@ std::optional<double> seconds_left(double elapsed, double first_share, double sh
   const double done = share - first_share;
   if (done < kLeastShare || elapsed < kLeastSeconds) return std::nullopt;
   return elapsed * (1.0 - share) / done;
+}
+
+std::string time_left_text(double seconds) {
+  const long whole = std::lround(std::min(seconds, 1e6));
+  char text[48];
+  if (whole < 3600) {
+    std::snprintf(text, sizeof text, "%ld:%02ld left", whole / 60, whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld left", whole / 3600, whole / 60 % 60,
+                  whole % 60);
+  }
+  return text;
 }
 
 std::string progress_line(const suite::SuiteProgress& progress, std::optional<double> seconds_left,

@@ -11,6 +11,9 @@ namespace contactcheck::cli {
 /// anything to go by.
 std::optional<double> seconds_left(double elapsed, double first_share, double share);
 
+/// "2:03 left", "1:02:03 left"
+std::string time_left_text(double seconds);
+
 /// The bar, share, time left, scene, detector and frame, as one line of at most `columns`.
 std::string progress_line(const suite::SuiteProgress& progress, std::optional<double> seconds_left,
                           std::size_t columns);

@@ -230,11 +230,9 @@ suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCa
   suite::save_scenes(arguments.save_scene, whole_run(request), request.tasks);
   request.resume = arguments.resume;
   request.overwrite = arguments.overwrite;
-  request.keep = arguments.keep;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;
-  request.finding = arguments.finding;
   request.known_defects = results::read_known_defects(hard_cases_folder());
   return request;
 }

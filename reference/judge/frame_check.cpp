@@ -1,22 +1,35 @@
 #include "reference/judge/frame_check.h"
 
+#include <sched.h>
+
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 #include "core/types/check.h"
-#include "reference/judge/judge.h"
 #include "reference/judge/judged_scene.h"
 #include "reference/oracle/closed_chain.h"
 #include "reference/text/file_text.h"
 
 namespace contactcheck::judge {
+namespace {
+
+// Those that this process may use; the detector has at most 256 threads.
+unsigned usable_processors() {
+  cpu_set_t processors;
+  if (sched_getaffinity(0, sizeof processors, &processors) != 0) return 1;
+  return static_cast<unsigned>(std::clamp(CPU_COUNT(&processors), 1, 256));
+}
+
+}  // namespace
 
 FrameChecker::FrameChecker(const scene::Scene& scene, const AllowedContact& allowed,
                            const DetectorCatalog& catalog)
     : scene_(scene),
       allowed_(allowed),
       positions_(scene),
-      detector_(catalog.make(catalog.parse(kFrameDetector))),
+      detector_(catalog.make(catalog.parse(std::string(kFrameDetector) +
+                                           ":threads=" + std::to_string(usable_processors())))),
       oracle_(scene.bodies),
       geometry_(scene.bodies) {
   std::vector<Question> questions;
@@ -81,7 +94,7 @@ std::optional<BadFrame> FrameChecker::confirmed(std::size_t f, const Frame& fram
     for (const Level level : kSelfClasses)
       for (const SelfPair& pair : self_pairs(level, scene_.bodies, truth.surface.self)) {
         if (pair.body != body) continue;
-        if (self.pairs.empty()) self.first = {pair.a, pair.b};
+        if (self.listed.size() < kListedPairs) self.listed.push_back({pair.a, pair.b});
         ++self.pairs[level];
       }
   }
@@ -96,7 +109,7 @@ void FrameChecker::add_pairs(const Frame& frame, const oracle::Truth& truth, Bad
   for (const BodyPair& bodies : truth.containment) pairs[bodies].bodies = bodies;
   for (const ElementPair& p : truth.surface.triangles) {
     BadFrame::Pair& pair = pairs.at({p.body_a, p.body_b});
-    if (!pair.first) pair.first = {p.a, p.b};
+    if (pair.listed.size() < kListedPairs) pair.listed.push_back({p.a, p.b});
     ++pair.triangles;
   }
   constexpr double kNone = -std::numeric_limits<double>::infinity();

@@ -9,10 +9,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/detect/detector.h"
 #include "core/detect/registry.h"
+#include "reference/judge/judge.h"
 #include "reference/oracle/oracle.h"
 #include "reference/oracle/surface_geometry.h"
 #include "reference/scene/frame_positions.h"
@@ -28,18 +30,21 @@ struct AllowedContact {
   std::optional<double> depth;  ///< metres, of contacts between bodies
 };
 
+/// At most kListedPairs (judge.h) of two bodies, or of one with itself.
+using TrianglePairs = std::vector<std::array<std::uint32_t, 2>>;
+
 /// What is not allowed in one frame.
 struct BadFrame {
   struct Pair {
     BodyPair bodies;
     std::size_t triangles = 0;
-    std::optional<std::array<std::uint32_t, 2>> first;  ///< none: one body is inside the other
+    TrianglePairs listed;  ///< the first ones; empty: one body is inside the other
     oracle::SurfaceDepth depth;
   };
   struct Self {
     std::uint32_t body = 0;
     std::map<Level, std::size_t> pairs;
-    std::array<std::uint32_t, 2> first{};
+    TrianglePairs listed;  ///< the first ones of the first level that has some, then of the others
   };
   std::size_t frame = 0;
   std::vector<Pair> pairs;
@@ -70,6 +75,11 @@ class FrameChecker {
   /// The contacts of the last frame checked.
   const FrameContacts& contacts() const { return contacts_; }
   const OpenBodies& open() const { return open_; }
+  /// Goes on as one that has checked the frames before: those in which these bodies were open.
+  void resume(const FrameContacts& contacts, OpenBodies open) {
+    contacts_ = contacts;
+    open_ = std::move(open);
+  }
 
  private:
   oracle::Truth judged(std::size_t f, const Frame& frame, const oracle::WantedTruth& wanted);

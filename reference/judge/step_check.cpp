@@ -201,7 +201,7 @@ std::vector<StepContact> StepChecker::check(std::size_t k, const FrameContacts& 
   if (!allowed_.contact) detector_->query(Question::kImpacts, answer);
   if (!allowed_.self) detector_->query(Question::kSelfImpacts, answer);
   for (const Count& count : detector_->counts())
-    if (count.name == "element_tests") element_tests_ += count.value;
+    if (count.name == "element_tests") totals_.element_tests += count.value;
   answer.canonicalize();
 
   FoundElements elements(step, scene_, edges_);
@@ -251,8 +251,8 @@ void StepChecker::measure(const Step& step) {
                                 end = step.end.bodies[b].vertices;
     for (std::size_t v = 0; v < start.size() && mean_edges_[b] > 0.0; ++v)
       if (const double edges = (end[v] - start[v]).stableNorm() / mean_edges_[b];
-          edges > (motion_ ? motion_->edges : 0.0))
-        motion_ = {edges, step.index(), b};
+          edges > (totals_.motion ? totals_.motion->edges : 0.0))
+        totals_.motion = {edges, step.index(), b};
     const std::vector<Triangle>& triangles = scene_.bodies[b].shape->mesh.triangles;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       const auto& [i, j, k] = triangles[t];
@@ -261,7 +261,8 @@ void StepChecker::measure(const Step& step) {
       if (before.isZero(0.0) || after.isZero(0.0)) continue;
       const double degrees =
           std::atan2(before.cross(after).norm(), before.dot(after)) * 180.0 / std::numbers::pi;
-      if (degrees > (turn_ ? turn_->degrees : 0.0)) turn_ = {degrees, step.index(), b, t};
+      if (degrees > (totals_.turn ? totals_.turn->degrees : 0.0))
+        totals_.turn = {degrees, step.index(), b, t};
     }
   }
 }

@@ -65,6 +65,15 @@ struct LargestTurn {
   std::uint32_t body = 0, triangle = 0;
 };
 
+/// The largest of all steps checked, none if no vertex moved or no normal turned; and how many
+/// pairs of a vertex and a triangle, or of two edges, were tested exactly: those whose moving boxes
+/// meet within a step.
+struct StepTotals {
+  std::optional<LargestMotion> motion;
+  std::optional<LargestTurn> turn;
+  std::uint64_t element_tests = 0;
+};
+
 /// Finds contact within steps with swept-aabb, exactly. The oracle confirms what is named: of each
 /// pair of bodies the first elements and their time, and contact at either end.
 class StepChecker {
@@ -79,12 +88,9 @@ class StepChecker {
   std::vector<StepContact> check(std::size_t step, const FrameContacts& at_start,
                                  const FrameContacts& at_end);
 
-  /// The largest of all steps checked; none if no vertex moved or no normal turned.
-  const std::optional<LargestMotion>& largest_motion() const { return motion_; }
-  const std::optional<LargestTurn>& largest_turn() const { return turn_; }
-  /// Pairs of a vertex and a triangle, or of two edges, whose moving boxes meet within a step, of
-  /// all steps checked: each was tested exactly.
-  std::uint64_t element_tests() const { return element_tests_; }
+  const StepTotals& totals() const { return totals_; }
+  /// Goes on as one that has checked the steps before.
+  void resume(const StepTotals& totals) { totals_ = totals; }
 
  private:
   void measure(const Step& step);
@@ -95,9 +101,7 @@ class StepChecker {
   std::unique_ptr<Detector> detector_;
   std::vector<MeshEdges> edges_;    // per body
   std::vector<double> mean_edges_;  // per body, metres
-  std::optional<LargestMotion> motion_;
-  std::optional<LargestTurn> turn_;
-  std::uint64_t element_tests_ = 0;
+  StepTotals totals_;
 };
 
 }  // namespace contactcheck::judge

@@ -412,11 +412,6 @@ struct Shard {
   Texts files;
 };
 
-/// The finding of a command (check) that ran these results: the head of its page.
-struct Finding {
-  std::string title, first;  ///< "4 of 8 frames have ...", "frame 4: left and right: 33 pairs ..."
-};
-
 struct Results {
   std::string version, command;
   Machine machine;
@@ -435,7 +430,6 @@ struct Results {
   Texts identities;
   std::optional<Shard> shard;
   std::vector<std::string> merged;
-  std::optional<Finding> finding;
 
   /// The plug-in of a detector (named with or without options); null for the program's own.
   const Plugin* plugin_of(const std::string& detector) const;

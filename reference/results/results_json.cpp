@@ -333,17 +333,12 @@ void fields(Io& io, Shard& s) {
 }
 
 template <typename Io>
-void fields(Io& io, Finding& f) {
-  CONTACTCHECK_FIELDS(io, f, title, first);
-}
-
-template <typename Io>
 void fields(Io& io, Results& r) {
   CONTACTCHECK_FIELDS(io, r, version, command, machine, libraries);
   CONTACTCHECK_FIELDS(io.unless_empty, r, plugins, timing);
   CONTACTCHECK_FIELDS(io, r, scenes, runs, disagreements);
   CONTACTCHECK_FIELDS(io.unless_empty, r, known_defects, known_ranges, goals, resumed, identities,
-                      shard, merged, finding);
+                      shard, merged);
 }
 
 Results from_json(const nlohmann::ordered_json& json) {

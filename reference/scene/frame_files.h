@@ -23,6 +23,8 @@ struct FrameFiles {
   std::vector<std::string> labels;     ///< by frame: the file of the first body that has several
   std::vector<std::string> shown;      ///< by body: its files as a shell pattern: "cloth_*.obj"
   std::vector<std::string> unchecked;  ///< files of frames that some body lacks
+  std::vector<std::vector<std::filesystem::path>> moving;  ///< by frame: the files of moving bodies
+  std::vector<std::filesystem::path> caches;               ///< of all frames
 };
 
 /// Finds the mesh files that are frames of one body, and the number of each frame. If paths differ

@@ -393,6 +393,17 @@ void RecordedBodies::note_unused(std::size_t frames, std::size_t most, Scene& sc
                          " frames are used, as many as every recording has");
 }
 
+bool RecordedBodies::fits_lattices() const {
+  return std::ranges::any_of(bodies_, [](const Recorded& r) { return r.lattice.fit; });
+}
+
+std::vector<std::vector<Vec3>> RecordedBodies::nodes(const Scene& scene, std::size_t frame) const {
+  std::vector<std::vector<Vec3>> out = scene.nodes_at(scene.time_of(frame));
+  for (const Recorded& recorded : bodies_)
+    out[recorded.body] = recorded.frames.positions(frame, *scene.bodies[recorded.body].shape);
+  return out;
+}
+
 void RecordedBodies::fill(Scene& scene) const {
   std::vector<std::vector<std::vector<Vec3>>> frames;
   for (std::size_t f = 0; f < scene.frames; ++f) frames.push_back(scene.nodes_at(scene.time_of(f)));

@@ -118,6 +118,12 @@ class RecordedBodies {
   /// have more (counted up to `most`). @throws InputError
   void note_unused(std::size_t frames, std::size_t most, Scene& scene) const;
 
+  /// True if the nodes of some body are those of a lattice that is fitted to its vertices.
+  bool fits_lattices() const;
+  /// The nodes of every body of `scene`, to which these were added, in a frame; scripted ones, too.
+  /// @pre nothing is fitted. @throws InputError
+  std::vector<std::vector<Vec3>> nodes(const Scene& scene, std::size_t frame) const;
+
   /// Fills scene.recorded, including the nodes of scripted bodies, and scene.fits.
   /// @pre scene.frames and scene.time_step are set, to no more frames than are available
   void fill(Scene& scene) const;

@@ -43,6 +43,7 @@ std::vector<std::vector<Vec3>> Scene::nodes_of_frame(std::size_t frame) const {
   CONTACTCHECK_INVARIANT(frame < frames, "the scene has this frame");
   if (scripted()) return nodes_at(time_of(frame));
   if (pairs() != nullptr) return pairs()->nodes(frame);
+  if (read_frame) return read_frame(frame);
   CONTACTCHECK_INVARIANT(frame < recorded.size(), "a simulated scene has been run, a sweep placed");
   return recorded[frame];
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -99,6 +100,8 @@ struct GivenFrames {};
 using SceneKind = std::variant<GivenFrames, SimulationSpec, SweepSpec, CaseFamily,
                                std::shared_ptr<const RandomPairs>>;
 
+using FrameReader = std::function<std::vector<std::vector<Vec3>>(std::size_t frame)>;
+
 struct Scene {
   std::string id;
   std::string title;  ///< one line
@@ -112,6 +115,9 @@ struct Scene {
   /// a recording, and for the cases of a family. For a simulated scene simulate_scene.h fills it
   /// before any frame is requested, for a sweep sweep_poses.h.
   std::vector<std::vector<std::vector<Vec3>>> recorded;
+  /// In place of `recorded`: reads the nodes of a frame, [body][node], each time it is called
+  /// (load_scene_unread). Any thread may call it, one at a time. It throws InputError.
+  FrameReader read_frame;
   SceneKind kind;
   std::vector<FitError> fits;  ///< bodies with a lattice fitted to a recording
   std::optional<Drawn> drawn;  ///< set if the scene was drawn from a seed, whatever its kind
@@ -127,7 +133,9 @@ struct Scene {
   }
 
   /// True if positions depend only on the time.
-  bool scripted() const { return recorded.empty() && std::holds_alternative<GivenFrames>(kind); }
+  bool scripted() const {
+    return recorded.empty() && !read_frame && std::holds_alternative<GivenFrames>(kind);
+  }
   /// True if first contacts are searched between frames. (Not for drawn scenes: the searches would
   /// take longest of all, and these scenes are defined by their frames.)
   bool bisects_time() const { return scripted() && !drawn; }
@@ -159,6 +167,10 @@ struct SceneText {
   std::filesystem::path folder;
 };
 Scene load_scene_text(const SceneText& document, std::size_t wanted_frames = 0);
+
+/// The same, but recorded frames are read when nodes_of_frame() asks for them, each time: the
+/// memory does not grow with their number. Frames to which a lattice is fitted are read now.
+Scene load_scene_unread(const SceneText& document);
 
 /// The scene `random-pairs` (random_pairs.h), judged at the levels body, cell and triangle.
 Scene make_pairs_scene(const PairSpec& spec);

@@ -215,9 +215,12 @@ std::size_t recorded_frames(const text::JsonField& root, const RecordedBodies& r
 
 }  // namespace
 
-Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
-  const text::JsonValue value = text::parse_json(document.text, document.name);
-  const text::JsonField root(value, document.name);
+namespace {
+
+// `value` belongs to the fields that recordings keep for their messages.
+Scene load_value(const std::shared_ptr<const text::JsonValue>& value, const SceneText& document,
+                 std::size_t wanted_frames, bool unread) {
+  const text::JsonField root(*value, document.name);
   if (root.has("parameter")) {
     if (wanted_frames > 0)
       throw InputError("--frames: the family of cases in the " + document.name +
@@ -244,7 +247,8 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
   }
   scene.levels = parse_levels(root.at("levels"));
   Workshop workshop;
-  RecordedBodies recorded;
+  const auto recorded_bodies = std::make_shared<RecordedBodies>();
+  RecordedBodies& recorded = *recorded_bodies;
   for (const text::JsonField& body : root.at("bodies").items(1)) {
     parse_body(body, document.folder, workshop, recorded, scene);
   }
@@ -256,9 +260,28 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
     throw InputError("--frames: scene " + text::in_quotes(scene.id) + " has " +
                      std::to_string(frames) + " recorded frames");
   if (wanted_frames > 0) scene.frames = wanted_frames;  // the first ones, each at its own time
-  recorded.fill(scene);
+  if (unread && !recorded.fits_lattices())
+    scene.read_frame = [value, recorded_bodies, base = scene](std::size_t frame) {
+      return recorded_bodies->nodes(base, frame);
+    };
+  else
+    recorded.fill(scene);
   return scene;
 }
+
+Scene load_document(const SceneText& document, std::size_t wanted_frames, bool unread) {
+  return load_value(
+      std::make_shared<const text::JsonValue>(text::parse_json(document.text, document.name)),
+      document, wanted_frames, unread);
+}
+
+}  // namespace
+
+Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
+  return load_document(document, wanted_frames, false);
+}
+
+Scene load_scene_unread(const SceneText& document) { return load_document(document, 0, true); }
 
 Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames) {
   return load_scene_text({text::read_file_bytes(file, "scene file"),

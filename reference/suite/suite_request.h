@@ -35,20 +35,17 @@ struct ShardOfRun {
 
 struct SuiteRequest {
   std::vector<SceneTask> tasks;
-  std::vector<results::Goal> goals;         ///< canonical names of detectors
-  RunSettings settings;                     ///< detectors are taken from the tasks
-  std::filesystem::path out;                ///< existing, writable
-  std::filesystem::path executable;         ///< this program, for its hidden subcommand `worker`
-  std::string command;                      ///< for the record
-  std::vector<results::Plugin> plugins;     ///< for the record
-  std::optional<results::Finding> finding;  ///< for the record
-  results::KnownDefects known_defects;      ///< what wrong answers are set beside
+  std::vector<results::Goal> goals;      ///< canonical names of detectors
+  RunSettings settings;                  ///< detectors are taken from the tasks
+  std::filesystem::path out;             ///< existing, writable
+  std::filesystem::path executable;      ///< this program, for its hidden subcommand `worker`
+  std::string command;                   ///< for the record
+  std::vector<results::Plugin> plugins;  ///< for the record
+  results::KnownDefects known_defects;   ///< what wrong answers are set beside
   /// Take over the scenes that an earlier run has finished in `out` (see PartialResults).
   bool resume = false;
   /// Discard the finished scenes of an interrupted run that this one does not take over.
   bool overwrite = false;
-  /// Keep finished scenes in case this run is interrupted; without, those of others are left alone.
-  bool keep = true;
   std::optional<ShardOfRun> shard = {};  ///< then `tasks` are those that it holds
 };
 

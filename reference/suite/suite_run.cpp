@@ -28,7 +28,6 @@ results::Results record_of(const SuiteRequest& request) {
   results::Results record;
   record.version = CONTACTCHECK_VERSION;
   record.command = request.command;
-  record.finding = request.finding;
   record.machine = describe_machine();
   for (const auto& library : adapters::library_versions()) record.libraries.push_back(library);
   record.plugins = request.plugins;
@@ -89,7 +88,7 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
   make_contacts_folder(scratch.path());
   PartialResults partial(request.out, scratch.path());
   const RunIdentity identity(request);
-  if (request.keep && !request.overwrite) require_nothing_lost(request, identity, partial.kept());
+  if (!request.overwrite) require_nothing_lost(request, identity, partial.kept());
   SuiteOutput output(request.out, scratch.path());
   std::map<std::string, FinishedScene> earlier;
   results::Results record = record_of(request);
@@ -103,7 +102,7 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
       record.resumed->push_back(task.id);
     }
     listener.resumed(*record.resumed);
-  } else if (request.keep) {
+  } else {
     partial.clear();
   }
   SuiteProgress progress;
@@ -129,7 +128,7 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
       finished = run_scene(request, task, scratch.path(), listener, report);
       if (known_again(record, task)) {
         finished.hash = identity_hash(identity.of(task), finished, request.out);
-        if (request.keep) partial.keep({task.id, identity.of(task), request.command}, finished);
+        partial.keep({task.id, identity.of(task), request.command}, finished);
       }
     }
     listener.scene_end({task.id, resumed_now, finished.runs});
@@ -137,7 +136,7 @@ results::Results run_suite(const SuiteRequest& request, const SuiteListener& lis
   }
   results::Results results =
       output.write(std::move(record), request.goals, request.known_defects, outcome);
-  if (request.keep) partial.clear();
+  partial.clear();
   return results;
 }
 

@@ -34,11 +34,15 @@ from mutant_verdict import WORDS, require_clean, unchanged_build, verdict
 from python_tests import ProductJudge
 
 
+OWN_BUILD = ROOT / "build" / "mutants"
+
+
 class CoreJudge:
-    """The program made for the mutants of core, in a build folder of its own."""
+    """The program made for the mutants of core, in a build folder of its own or a configured one."""
 
     def __init__(self, options, workers):
-        self.build = unchanged_build(options.build.resolve(), options.jobs)
+        self.build = unchanged_build(options.build.resolve(), options.jobs,
+                                     configured=options.build != OWN_BUILD)
         require_clean(self.build, workers)
 
     def verdict(self, mutant, workers):
@@ -207,8 +211,9 @@ def parsed():
     parser.add_argument("--steady", action="store_true",
                         help="of --stale, only mutants that were caught before, and without times")
     parser.add_argument("--write", action="store_true", help="keep the verdicts")
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "mutants",
-                        help="where to build mutants of core (default: build/mutants)")
+    parser.add_argument("--build", type=pathlib.Path, default=OWN_BUILD,
+                        help="a configured build beside which mutants of core are built (default: "
+                             "build/mutants, which is configured for them)")
     parser.add_argument("--product-build", type=pathlib.Path, default=ROOT / "build" / "release",
                         help="whose program mutants of the product are built beside (default: "
                              "build/release)")

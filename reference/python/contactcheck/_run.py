@@ -435,6 +435,8 @@ def check(
     allow: Union[str, Sequence[str]] = (),
     weld: bool = False,
     out: Union[str, os.PathLike, None] = None,
+    resume: bool = False,
+    overwrite: bool = False,
 ) -> Check:
     """Which frames of a simulation have contacts, as `contactcheck check` says; exact.
 
@@ -442,7 +444,8 @@ def check(
     recording), or pairs (frames, F), frames being (f, n, 3) or a list of (n, 3); one frame alone
     is a body at rest. `between`: contact between frames, too, on straight paths from each frame to
     the next. `allow`: "contact", "self", "depth=METRES", "impact". `weld`: vertices at one place in
-    the first frame are one. `out`: the folder of a page; None: none is kept.
+    the first frame are one. `out`: the folder of a page and tables; None: none is kept. `resume`
+    and `overwrite`: as of the command, of files in a folder of one's own.
 
     >>> V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]]
     >>> found = check([([V + [0, 0, 1], V - [0, 0, 3]], F), ([V], F)], between=True)
@@ -451,6 +454,7 @@ def check(
     """
     allowed = [allow] if isinstance(allow, str) else list(allow)
     words: list = ["check", "--json-lines"] + ["--between"] * between + ["--weld"] * weld
+    words += ["--resume"] * resume + ["--overwrite"] * overwrite
     for word in allowed:
         words += ["--allow", word]
     bodies = [bodies] if isinstance(bodies, (str, os.PathLike)) else list(bodies)

@@ -27,13 +27,6 @@ struct CsvColumn {
   std::function<std::string(const Run& run)> text;
 };
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string csv_text(const std::string& text) { return text; }
 // As in results.json.
 template <typename Number>
@@ -170,14 +163,21 @@ std::vector<CsvColumn> columns_of(const results::Results& results) {
 
 }  // namespace
 
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 std::string csv_report(const results::Results& results) {
   const std::vector<CsvColumn> columns = columns_of(results);
   std::string text;
   const auto end_line = [&] { text.replace(text.size() - 1, 1, "\r\n"); };
-  for (const CsvColumn& column : columns) text += quoted(column.title) + ",";
+  for (const CsvColumn& column : columns) text += csv_cell(column.title) + ",";
   end_line();
   for (const Run& run : results.runs) {
-    for (const CsvColumn& column : columns) text += quoted(column.text(run)) + ",";
+    for (const CsvColumn& column : columns) text += csv_cell(column.text(run)) + ",";
     end_line();
   }
   return text;

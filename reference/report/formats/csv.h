@@ -12,4 +12,7 @@ namespace contactcheck::report {
 /// columns, except that a reference has columns only if some run has a speed-up against it.
 std::string csv_report(const results::Results& results);
 
+/// A cell of such a table: in quotes where it has to be.
+std::string csv_cell(const std::string& text);
+
 }  // namespace contactcheck::report

@@ -50,12 +50,16 @@ void fill_in(std::string& page, std::string_view placeholder, const std::string&
 
 bool has_html_report() { return !kReportTemplate.empty(); }
 
-std::string html_report(const results::Results& results, const std::optional<PaperPart>& paper,
-                        std::string_view view) {
+std::string html_page(const std::string& data, std::string_view view) {
   std::string page(kReportTemplate);
-  fill_in(page, "@page@", packed(page_data(results, paper).dump()));
+  fill_in(page, "@page@", packed(data));
   fill_in(page, "@view@", packed(view));
   return page;
+}
+
+std::string html_report(const results::Results& results, const std::optional<PaperPart>& paper,
+                        std::string_view view) {
+  return html_page(page_data(results, paper).dump(), view);
 }
 
 }  // namespace contactcheck::report

@@ -407,4 +407,16 @@ std::string view_bytes(const results::Results& results, const fs::path& folder, 
   return container(scenes);
 }
 
+std::string view_bytes(const Recording& recording, const Json& contacts, std::size_t limit) {
+  std::vector<Candidate> scenes(1);
+  Candidate& scene = scenes.front();
+  for (const bool cut : {false, true}) {
+    scene.view = scene_view(recording, contacts,
+                            cut ? kept_near_contacts(recording, contacts) : KeptShapes());
+    scene.size = compressed_size(scene.view);
+    if (scene.size <= limit) return container(scenes);
+  }
+  return "";
+}
+
 }  // namespace contactcheck::report

@@ -36,12 +36,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "reference/results/results.h"
-
+#include "core/deform/recording.h"
 #include "core/types/vec3.h"
+#include "reference/results/results.h"
 
 namespace contactcheck::report {
 
@@ -74,5 +75,10 @@ inline constexpr std::size_t kViewLimit = 9'500'000;
 /// it. Empty if no scene of the results has a recording.
 std::string view_bytes(const results::Results& results, const std::filesystem::path& folder,
                        std::size_t limit = kViewLimit);
+
+/// The same of one recording. `contacts`: as in contacts/SCENE.json, of this recording. Empty if
+/// not even what is near its contacts fits.
+std::string view_bytes(const Recording& recording, const nlohmann::ordered_json& contacts,
+                       std::size_t limit);
 
 }  // namespace contactcheck::report

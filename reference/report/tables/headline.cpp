@@ -399,8 +399,7 @@ Headline headline_of(const Results& results) {
   const Index index(results);
   const std::vector<Verdict> verdicts = verdicts_of(index);
   Headline out;
-  out.title = results.finding ? results.finding->title : title_of(index, verdicts);
-  if (results.finding) out.findings.push_back({"First", results.finding->first + "."});
+  out.title = title_of(index, verdicts);
   add_exact(verdicts, out.findings);
   std::size_t most = 0;
   for (const auto& [question, what] : kCompared) {

@@ -14,8 +14,7 @@ struct HeadlineFinding {
 };
 
 struct Headline {
-  /// The finding (Results::finding); else "3 of 5 detectors have no missed and no spurious contacts
-  /// in 2 scenes".
+  /// "3 of 5 detectors have no missed and no spurious contacts in 2 scenes"
   std::string title;
   std::vector<HeadlineFinding> findings;
   /// The detectors that were right and fastest in some scene, most scenes first.

@@ -161,3 +161,45 @@ def test_github_without_its_file_is_refused_before_anything_runs(tmp_path, monke
     assert outcome.exit_code == 2
     assert "GITHUB_STEP_SUMMARY" in outcome.err
     assert not (tmp_path / "order").exists()
+
+
+# In its fourth run it kills the program that has started it, once.
+KILLS_ONCE = """
+[ "$run" = 3 ] && [ ! -e "$here/killed" ] && touch "$here/killed" && kill -9 $PPID
+exit 0
+"""
+
+
+def killed(folder):
+    """The words of a comparison that was killed in its fourth round."""
+    words = ["ab", build(folder, "base"), build(folder, "head", slower=1.3, end=KILLS_ONCE), "--out", folder / "out"]
+    assert contactcheck(*words).exit_code == 128 + 9
+    return words
+
+
+def test_goes_on_with_the_round_that_was_interrupted(tmp_path):
+    words = killed(tmp_path)
+    before = len((tmp_path / "order").read_text().splitlines())
+    (tmp_path / "head.count").write_text("3\n")  # what that round would have got
+    outcome = contactcheck(*words, "--resume")
+    assert outcome.exit_code == 1, outcome.err
+    assert outcome.err.startswith("resumed: 3 of 7 rounds\nround 4 of 7\n")
+    assert len((tmp_path / "order").read_text().splitlines()) - before == 8, "four rounds of two"
+    assert "Slower than 1.10x (1)\n  hello  ffd-aabb-sphere2  1.3" in outcome.out
+    assert not (tmp_path / "out" / "rounds").exists()
+
+
+def test_refuses_to_discard_rounds(tmp_path):
+    words = killed(tmp_path)
+    assert ("an interrupted comparison has left 3 whole rounds there: --resume takes them over, --overwrite "
+            "discards them") in contactcheck(*words).err
+    (tmp_path / "base").write_text(SCRIPT + "true\n", encoding="utf-8")
+    other = contactcheck(*words, "--resume")
+    assert other.exit_code == 2
+    assert "of another one (other base): contactcheck ab " in other.err
+    assert (tmp_path / "out" / "rounds" / "3-head.json").exists()
+    for name in ("base", "head"):
+        (tmp_path / f"{name}.count").unlink()
+    outcome = contactcheck(*words, "--overwrite")
+    assert outcome.exit_code == 1, outcome.err
+    assert outcome.err.startswith("round 1 of 7\n")

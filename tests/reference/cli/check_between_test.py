@@ -2,6 +2,7 @@
 
 Times and places are by hand: all is linear."""
 
+import csv
 import json
 
 import pytest
@@ -64,31 +65,40 @@ def test_finds_a_ball_that_passes_a_sheet(tmp_path):
     assert "\nno frame has a contact that is not allowed\n" in outcome.out
     assert f"\n1 of 1 step has a contact that is not allowed, {PATHS}, the first is {step}\n" in outcome.out
     assert f"\n1 step has a contact that neither of its frames shows, {PATHS}\n" in outcome.out
-    assert "report." in outcome.out.splitlines()[-1]
+    assert "check." in outcome.out.splitlines()[-1]
     said = [line for line in outcome.out.splitlines() if " of the step" in line or " a step" in line or
             " of 1 step" in line or " step has" in line]
     assert len(said) == 6 and all(PATHS in line for line in said)
 
 
-def test_page_shows_both_ends_of_the_first_step(tmp_path):
+def test_writes_both_ends_of_the_first_step(tmp_path):
     assert check(tmp_path, BALL, "--between").exit_code == 1
-    results = json.loads((tmp_path / "out" / "results.json").read_text(encoding="utf-8"))
-    assert results["finding"]["title"] == f"1 of 1 step has a contact that is not allowed, {PATHS}"
-    assert results["finding"]["first"].startswith("frame 0 (ball_0.obj) to frame 1 (ball_1.obj), ball and sheet: ")
-    assert results["command"].endswith(" --between")
-    scene, = results["scenes"]
-    assert (scene["id"], scene["frames"]) == ("frames-0-1", 2)
+    found = json.loads((tmp_path / "out" / "check.json").read_text(encoding="utf-8"))
+    assert found["command"].endswith(" --between")
+    assert (found["checked_frames"], found["frames"], found["exit_code"]) == (2, [], 1)
+    step, = found["steps"]
+    assert step["contacts"][0]["first"]["elements"] == [{"body": "ball", "vertex": 5},
+                                                        {"body": "sheet", "triangle": 0}]
     # What was written is a sequence itself, and the same is found in it.
     again = contactcheck("check", tmp_path / "out" / "frames-0-1.ccr", "--between", "--out", tmp_path / "again")
     assert again.exit_code == 1, again.err
     assert "first at 0.5 of the step, vertex 5 of ball" in again.out
 
 
-def test_page_names_further_steps(tmp_path):
-    outcome = check(tmp_path, {"ball": [ball(1), ball(-0.5), ball(1)], "sheet": SHEET}, "--between")
+def test_lists_every_step(tmp_path):
+    outcome = check(tmp_path, {"ball": [ball(1), ball(-0.5), ball(1)], "sheet": SHEET}, "--between",
+                    "--keep", "1-2")
     assert "2 of 2 steps have a contact that is not allowed" in outcome.out
-    results = json.loads((tmp_path / "out" / "results.json").read_text(encoding="utf-8"))
-    assert results["finding"]["first"].endswith(f"{PATHS}; then frames 1 to 2")
+    with open(tmp_path / "out" / "check.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [(row["kind"], row["frame"], row["first_b"]) for row in rows] == [
+        ("step", "0", "triangle 0"), ("step", "1", "triangle 0")]
+    assert all(float(row["time_lower"]) <= 0.5 for row in rows)
+    # Of a step that was asked for, both ends, with what to judge detectors by.
+    contactcheck("run", tmp_path / "out" / "frames-1-2.ccr", "--no-timing", "--detector", "full-refit", "--out",
+                 tmp_path / "run")
+    results = json.loads((tmp_path / "run" / "results.json").read_text(encoding="utf-8"))
+    assert "impact" in results["runs"][0]["levels"]
 
 
 def test_json_lines_say_it_to_programs(tmp_path):

@@ -607,7 +607,7 @@ def test_check_takes_files_and_leaves_a_page(tmp_path, monkeypatch):
     pathlib.Path("wall.obj").write_text("v 0.2 0.2 -1\nv 0.2 0.2 1\nv 3 3 0\nf 1 2 3\n")
     found = contactcheck.check(["ball_0.obj", pathlib.Path("wall.obj")], out="page")
     assert not found.clean and found.frames[0]["contacts"][0]["bodies"] == ["ball_0", "wall"]
-    assert (tmp_path / "page" / "report.md").is_file() and found.summary["out"] == str(tmp_path / "page")
+    assert (tmp_path / "page" / "check.csv").is_file() and found.summary["out"] == str(tmp_path / "page")
 
 
 @pytest.mark.parametrize("arguments,sentence", (

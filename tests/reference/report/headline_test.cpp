@@ -104,13 +104,6 @@ TEST(Headline, WhoWasNotJudgedIsNotCounted) {
   EXPECT_EQ(headline_of(results).title, "Nothing was judged in 1 scene");
 }
 
-TEST(Headline, IsWhatACommandFoundBeforeItRan) {
-  Results results = run_of({"a"}, {row("a", "x", 0, 0)});
-  results.finding = {"1 of 9 frames has a contact that is not allowed", "frame 4, a and b"};
-  EXPECT_EQ(headline_of(results).title, "1 of 9 frames has a contact that is not allowed");
-  EXPECT_EQ(sentence_about(results, "First"), "frame 4, a and b.");
-}
-
 TEST(Headline, FamiliesCountByTheirCases) {
   Results results = run_of({"a", "gap"}, {row("gap", "x", 0, 0)});
   results.scenes[1].family.emplace().values = {"0", "1e-9", "1e-3"};

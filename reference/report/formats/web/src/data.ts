@@ -1,4 +1,5 @@
 // What the program put into the page: what to show, and the scenes for the 3D view.
+import type {CheckPage} from "./check/data";
 import type {Page} from "./page";
 
 /** Inflates what html.cpp deflated; an empty text is nothing. */
@@ -12,10 +13,11 @@ async function unpacked(id: string): Promise<ArrayBuffer | null> {
   return new Response(stream).arrayBuffer();
 }
 
-export async function readPage(): Promise<Page> {
+/** Of a run, or of `contactcheck check`. */
+export async function readPage(): Promise<Page | CheckPage> {
   const bytes = await unpacked("contactcheck-page");
   if (!bytes) throw new Error("the page holds nothing to show");
-  return JSON.parse(new TextDecoder().decode(bytes)) as Page;
+  return JSON.parse(new TextDecoder().decode(bytes)) as Page | CheckPage;
 }
 
 /** The bytes described in reference/report/formats/view_bytes.h; null when the report has no recordings. */

@@ -1,3 +1,4 @@
+import {showCheck} from "./check/page";
 import {readPage, readView} from "./data";
 import {h, p, type Child} from "./dom";
 import type {Page} from "./page";
@@ -105,7 +106,8 @@ async function main(): Promise<void> {
   const page = await readPage(),
     bytes = await readView();
   const place = document.getElementById("report")!;
-  show(page, bytes, place);
+  if ("frames" in page) showCheck(page, bytes, place);
+  else show(page, bytes, place);
   document.title = `contactcheck: ${page.title}`;
   addEventListener("hashchange", openTarget);
   openTarget();

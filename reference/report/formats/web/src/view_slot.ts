@@ -1,6 +1,19 @@
 // The place of the 3D view. Whoever bundles one says so with provideView(); without one, or without
 // recordings in the page, there is no section for it, and tables have no buttons that lead there.
-import type {Page} from "./page";
+
+/** What the page knows of the scenes, and the bytes do not hold. */
+export interface ViewContext {
+  title(scene: string): string;
+  /** The value of each frame, of scenes whose frames are cases and no moments. */
+  cases: Map<string, string[]>;
+  /** The command that shrinks a pair, but for its level and kind; "" for a transient detector. */
+  reduce(detector: string, recording: string): string;
+  /**
+   * Of frames that `contactcheck check` has chosen out of many: what each is called, and what is said
+   * of it.
+   */
+  chosen?: {names: string[]; words: string[][]};
+}
 
 export interface ViewTarget {
   scene: string;
@@ -17,7 +30,11 @@ export interface View {
   show(target: ViewTarget): void;
 }
 
-export type MountView = (place: HTMLElement, page: Page, bytes: ArrayBuffer) => View | null;
+export type MountView = (
+  place: HTMLElement,
+  context: ViewContext,
+  bytes: ArrayBuffer,
+) => View | null;
 
 let provided: MountView | null = null;
 let view: View | null = null;
@@ -31,8 +48,8 @@ export const canHaveView = (): boolean => provided !== null;
 export const canShow = (scene: string): boolean => view?.has(scene) ?? false;
 
 /** @pre canHaveView(); `place` is in the document */
-export function mountInto(place: HTMLElement, page: Page, bytes: ArrayBuffer): void {
-  view = provided!(place, page, bytes);
+export function mountInto(place: HTMLElement, context: ViewContext, bytes: ArrayBuffer): void {
+  view = provided!(place, context, bytes);
 }
 
 /**

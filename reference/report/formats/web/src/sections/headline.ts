@@ -4,7 +4,13 @@ import type {Page} from "../page";
 import {withCode} from "../table";
 import {themeSwitch} from "../theme";
 
-export function header({version, title, findings, run, parts}: Page): HTMLElement {
+export function header({
+  version,
+  title,
+  findings,
+  run,
+  parts,
+}: Pick<Page, "version" | "title" | "findings" | "run" | "parts">): HTMLElement {
   return h(
     "header",
     {},

@@ -7,6 +7,13 @@ const kShortestStep = 40; // ms: no faster than a software renderer draws
 
 const kStripHeight = 22;
 
+export interface FrameWords {
+  /** The value of each frame, where frames are cases and no moments. */
+  cases?: string[];
+  /** What each is called, where they are some of many. */
+  names?: string[];
+}
+
 export class FrameBar {
   readonly element: HTMLElement;
   private readonly slider = h("input", {
@@ -28,7 +35,7 @@ export class FrameBar {
     "▶",
   );
   private scene: SceneHeader | null = null;
-  private cases: string[] | undefined;
+  private words: FrameWords = {};
   private timer: number | undefined;
 
   constructor(private readonly onFrame: (frame: number) => void) {
@@ -45,10 +52,9 @@ export class FrameBar {
     );
   }
 
-  /** `cases`: the value of each frame, where frames are cases and no moments. */
-  fill(scene: SceneHeader, detector: DetectorContacts | undefined, cases?: string[]): void {
+  fill(scene: SceneHeader, detector: DetectorContacts | undefined, words: FrameWords): void {
     this.scene = scene;
-    this.cases = cases;
+    this.words = words;
     this.slider.max = String(scene.frames - 1);
     this.play.disabled = scene.frames < 2;
     this.strip.setAttribute("viewBox", `0 0 ${Math.max(1, scene.frames)} ${kStripHeight}`);
@@ -57,12 +63,15 @@ export class FrameBar {
 
   set frame(frame: number) {
     this.slider.value = String(frame);
-    const {frames, time_step} = this.scene!;
-    const value = this.cases?.[frame];
-    const words = `${this.cases ? "case" : "frame"} ${frame} of 0 to ${frames - 1}${value === undefined ? "" : `, value ${value}`}`;
+    const {frames, time_step} = this.scene!,
+      {cases, names} = this.words;
+    const value = cases?.[frame];
+    const words =
+      names?.[frame] ??
+      `${cases ? "case" : "frame"} ${frame} of 0 to ${frames - 1}${value === undefined ? "" : `, value ${value}`}`;
     this.slider.setAttribute("aria-valuetext", words);
     this.text.textContent =
-      time_step > 0 && !this.cases ? `${words}, ${(frame * time_step).toFixed(2)} s` : words;
+      time_step > 0 && !cases && !names ? `${words}, ${(frame * time_step).toFixed(2)} s` : words;
   }
 
   stop(): void {
@@ -81,7 +90,8 @@ export class FrameBar {
 
   private step(): void {
     const {frames, time_step} = this.scene!,
-      pause = this.cases ? kCaseStep : Math.max(kShortestStep, 1000 * time_step);
+      {cases, names} = this.words,
+      pause = cases || names ? kCaseStep : Math.max(kShortestStep, 1000 * time_step);
     this.onFrame((Number(this.slider.value) + 1) % frames);
     this.timer = window.setTimeout(() => this.step(), pause);
   }

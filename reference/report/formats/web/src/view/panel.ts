@@ -2,6 +2,7 @@
 import {h} from "../dom";
 import {type BoundsKind, kBounds} from "./bounds";
 import type {MarkKind} from "./marks";
+import type {ViewContext} from "../view_slot";
 import type {DetectorContacts, SceneHeader} from "./types";
 
 export type Layer = "bodies" | BoundsKind | MarkKind;
@@ -46,29 +47,37 @@ export class Panel {
   private readonly detectors = h("select", {"data-control": "detector"});
   private readonly ofLattice: HTMLInputElement[] = [];
 
-  constructor(scenes: SceneHeader[], title: (scene: string) => string, events: PanelEvents) {
+  constructor(scenes: SceneHeader[], {title, chosen}: ViewContext, events: PanelEvents) {
     this.scenes.append(...scenes.map(({id}) => h("option", {value: id, title: title(id)}, id)));
     this.scenes.addEventListener("change", () => events.scene(this.scenes.value));
     this.detectors.addEventListener("change", () => events.detector(this.detectors.value));
-    const marks = kMarks.map(([kind, symbol]) =>
-      this.box(
-        kind,
-        events,
-        h("span", {class: `view-symbol view-${kind}`, "aria-hidden": "true"}, symbol),
-      ),
-    );
+    // Chosen frames are of one scene, and of no detector that could be wrong.
+    const marks = kMarks
+      .slice(0, chosen ? 1 : undefined)
+      .map(([kind, symbol]) =>
+        this.box(
+          kind,
+          events,
+          h("span", {class: `view-symbol view-${kind}`, "aria-hidden": "true"}, symbol),
+          chosen ? "not allowed" : undefined,
+        ),
+      );
     this.element = h(
       "div",
       {class: "view-panel"},
-      h("label", {}, h("span", {}, "Scene"), this.scenes),
-      h("label", {}, h("span", {}, "Contacts of"), this.detectors),
+      ...(chosen
+        ? []
+        : [
+            h("label", {}, h("span", {}, "Scene"), this.scenes),
+            h("label", {}, h("span", {}, "Contacts of"), this.detectors),
+          ]),
       h("fieldset", {}, h("legend", {}, "Contacts"), ...marks),
       h(
         "fieldset",
         {},
         h("legend", {}, "Show"),
         this.box("bodies", events),
-        ...kBounds.map((kind) => this.box(kind, events)),
+        ...(chosen ? [] : kBounds.map((kind) => this.box(kind, events))),
       ),
       h("button", {type: "button", click: () => events.overview()}, "Whole scene"),
     );
@@ -85,7 +94,12 @@ export class Panel {
     for (const input of this.ofLattice) input.disabled = !lattice;
   }
 
-  private box(layer: Layer, events: PanelEvents, symbol?: Node): HTMLElement {
+  private box(
+    layer: Layer,
+    events: PanelEvents,
+    symbol?: Node,
+    label = kLabels[layer],
+  ): HTMLElement {
     const input = h("input", {
       type: "checkbox",
       checked: this.shown.has(layer),
@@ -97,7 +111,7 @@ export class Panel {
       else this.shown.delete(layer);
       events.layers();
     });
-    return h("label", {}, input, symbol ?? null, ` ${kLabels[layer]}`);
+    return h("label", {}, input, symbol ?? null, ` ${label}`);
   }
 }
 

@@ -1,7 +1,7 @@
 // The 3D view: any scene of the report, frame by frame, with the contacts that a detector missed or
 // made up. It draws from the container alone, which was made from recordings and contacts files.
 import {code, h} from "../dom";
-import type {Page} from "../page";
+import type {ViewContext} from "../view_slot";
 import {Bodies} from "./bodies";
 import {Bounds, kBounds} from "./bounds";
 import {type Colours, onColoursChange, readColours} from "./colours";
@@ -46,27 +46,16 @@ class SceneViewer implements View {
   private bounds: Bounds;
   private marks: ReturnType<typeof makeMarks>[] = [];
   private detector = "";
-  /** The values of the parameters of families, whose frames are cases. */
-  private readonly cases: Map<string, string[]>;
-  /** The command that shrinks a pair, but for its level and kind; "" for a transient detector. */
-  private readonly reduce: (detector: string, recording: string) => string;
   private pairs: ListedPair[] = [];
   private chosen: ListedPair | null = null;
   private started = false;
 
   constructor(
     private readonly place: HTMLElement,
-    {scenes, families, detectors, reduce, out}: Page,
+    private readonly context: ViewContext,
     private readonly container: Container,
   ) {
-    const title = (scene: string): string =>
-      [...scenes, ...families].find(({id}) => id === scene)?.title ?? scene;
-    this.reduce = (detector, recording) => {
-      const words = reduce[detectors.indexOf(detector)];
-      return words && `contactcheck reduce ${out}/recordings/${recording} ${words}`;
-    };
-    this.cases = new Map(families.map(({id, values}) => [id, values]));
-    this.panel = new Panel(container.scenes, title, {
+    this.panel = new Panel(container.scenes, context, {
       scene: (id) => this.show({scene: id, frame: busiestFrame(container, id)}),
       detector: (name) =>
         this.show({scene: this.model.header.id, frame: this.model.frame, detector: name}),
@@ -162,7 +151,11 @@ class SceneViewer implements View {
     this.detector = detector;
     const {header} = this.model;
     this.panel.show(header, detector);
-    this.frames.fill(header, this.model.detector(detector), this.cases.get(header.id));
+    const {cases, chosen} = this.context;
+    this.frames.fill(header, this.model.detector(detector), {
+      cases: cases.get(header.id),
+      names: chosen?.names,
+    });
     this.pairs = detector === "" ? [] : listedPairs(header, detector);
     this.table.element.hidden = this.pairs.length === 0;
     this.table.fill(header, this.pairs, `Missed and spurious pairs of ${detector}`);
@@ -306,14 +299,20 @@ class SceneViewer implements View {
 
   private words(): (Node | string)[] {
     const {frame, header} = this.model,
-      place = this.cases.has(header.id) ? "case" : "frame";
+      place = this.context.cases.has(header.id) ? "case" : "frame";
+    const cut = this.model.shapes.some((shape) => shape.cut)
+      ? " The scene is too large for this page: only surfaces near its contacts are drawn."
+      : "";
+    const said = this.context.chosen?.words[frame];
+    if (said) return [h("span", {}, ...said.map((text) => h("span", {class: "line"}, text))), cut];
     const start = `${place[0].toUpperCase()}${place.slice(1)} ${frame}`;
     if (this.chosen) {
       const [one, other] = pairWords(this.chosen, (body) => header.bodies[body].name);
       const {kind, level} = this.chosen;
       const cannotBeReduced =
         level === "vertex" || level === "containment" || level.startsWith("impact");
-      const command = !cannotBeReduced && this.reduce(this.detector, `${header.id}.ccr@${frame}`);
+      const command =
+        !cannotBeReduced && this.context.reduce(this.detector, `${header.id}.ccr@${frame}`);
       return [
         `${this.detector}, ${place} ${frame}, ${kind}: `,
         h("strong", {class: `view-${kind}`}, one),
@@ -336,9 +335,7 @@ class SceneViewer implements View {
       : false;
     return [
       `${start}: ${truth} ${truth === 1 ? "pair of triangles touches" : "pairs of triangles touch"}${differs}${listed ? " (the first of them are drawn)" : ""}.`,
-      this.model.shapes.some(({cut}) => cut)
-        ? " The scene is too large for this page: only surfaces near its contacts are drawn."
-        : "",
+      cut,
     ];
   }
 
@@ -419,13 +416,17 @@ function leftOut({leftOut: scenes}: Container): HTMLElement[] {
  * @returns null when none of its scenes could be taken in; `place` then says why
  * @throws Error when the bytes are damaged
  */
-export function mountView(place: HTMLElement, page: Page, bytes: ArrayBuffer): View | null {
+export function mountView(
+  place: HTMLElement,
+  context: ViewContext,
+  bytes: ArrayBuffer,
+): View | null {
   const container = new Container(bytes);
   if (container.scenes.length === 0) {
     place.replaceChildren(...leftOut(container));
     return null;
   }
-  const view = new SceneViewer(place, page, container);
+  const view = new SceneViewer(place, context, container);
   (window as unknown as {contactcheckView: View}).contactcheckView = view;
   return view;
 }

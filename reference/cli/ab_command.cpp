@@ -1,25 +1,23 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "core/types/suggestion.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/github_job.h"
-#include "reference/cli/kept_work.h"
 #include "reference/cli/own_detectors.h"
 #include "reference/gate/output.h"
 #include "reference/process/exit_codes.h"
@@ -27,10 +25,10 @@
 #include "reference/process/worker_process.h"
 #include "reference/results/ab.h"
 #include "reference/results/results_file.h"
-#include "reference/suite/job.h"
+#include "reference/results/results_json.h"
+#include "reference/suite/kept_work.h"
 #include "reference/suite/machine.h"
 #include "reference/suite/out_lock.h"
-#include "reference/suite/run_identity.h"
 #include "reference/text/counted.h"
 #include "reference/text/printable.h"
 
@@ -128,19 +126,13 @@ class Build {
     words_.insert(words_.end(), arguments.targets.begin(), arguments.targets.end());
   }
 
-  /// Leaves the results in OUT/base or OUT/head.
-  void run() const {
+  results::Results run() const {
     // What an earlier round, or one that was interrupted, has left must not pass for this one's.
     std::error_code ignored;
     fs::remove(out_ / "results.json", ignored);
     fs::remove_all(out_ / "partial", ignored);
     run_to_the_end();
-  }
-  fs::path results_file() const { return out_ / "results.json"; }
-
-  /// Those of a file, with rows that can be compared.
-  results::Results results_of(const fs::path& file) const {
-    results::Results results = results::results_in(file);
+    results::Results results = results::results_in(out_ / "results.json");
     for (results::Run& run : results.runs) {
       if (run.detector != detector_ || detector_ == row_) continue;
       run.detector = row_;
@@ -183,84 +175,27 @@ class Build {
   std::vector<std::string> words_;
 };
 
-// With the contents of the files among them, which decide what is compared.
-std::string contents_of(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) {
-    std::error_code ignored;
-    out += " " + word;
-    if (fs::is_regular_file(word, ignored)) out += "=" + suite::hash_of_file(word);
-  }
-  return out;
-}
-
 // All but the number of rounds: more may be added.
 std::string identity_of_ab(const std::vector<AbSide>& sides, const AbArguments& arguments) {
+  const auto known = [](const std::string& word) {
+    return " " + word + " " + suite::content_of_word(word);
+  };
   std::string lines;
   for (const AbSide& side : sides) {
-    std::vector<std::string> words = {side.program.string()};
+    lines += side.name + ":" + known(side.program.string());
     for (const std::string& flag : side.flags) {
       std::istringstream parts(flag);  // of a command
-      for (std::string part; parts >> part;) words.push_back(part);
+      for (std::string part; parts >> part;) lines += known(part);
     }
-    lines += side.name + ":" + contents_of(words) + "\n";
+    lines += "\n";
   }
-  lines += "scenes:" + contents_of(arguments.targets) +
-           "\nframes: " + std::to_string(arguments.frames) + "\n";
+  lines += "scenes:";
+  for (const std::string& target : arguments.targets) lines += known(target);
+  lines += "\nframes: " + std::to_string(arguments.frames) + "\n";
   for (const auto& [member, value] : results::members_of(suite::describe_machine()))
     lines += member + ": " + value + "\n";
-  return identity_of(lines);
+  return suite::identity_of(lines);
 }
-
-/// Results of whole rounds, in OUT/rounds until all are done.
-class KeptRounds {
- public:
-  /// @throws InputError when rounds would be lost
-  KeptRounds(const AbArguments& arguments, const std::string& identity)
-      : folder_(arguments.out / "rounds") {
-    KeptWork kept;
-    std::size_t rounds = 0;
-    while (has(rounds)) ++rounds;
-    try {
-      const auto head = nlohmann::json::parse(suite::read_text_file(folder_ / kHead));
-      kept.identity = head.at("identity").get<std::string>();
-      kept.command = head.at("command").get<std::string>();
-    } catch (const std::exception&) {
-      rounds = 0;  // there are none, or somebody else's
-    }
-    if (rounds > 0)
-      kept.left = "an interrupted comparison has left " + text::counted(rounds, "whole round");
-    require_nothing_lost(arguments.out, kept, identity, arguments.resume, arguments.overwrite);
-    if (rounds > 0 && arguments.resume && kept.identity == identity) {
-      if (!arguments.quiet)
-        std::fprintf(stderr, "resumed: %zu of %s\n", std::min(rounds, arguments.rounds),
-                     text::counted(arguments.rounds, "round").c_str());
-      return;
-    }
-    clear();
-    fs::create_directories(folder_);
-    const nlohmann::json head = {{"identity", identity}, {"command", arguments.command_line}};
-    write_file_atomically(folder_ / kHead, head.dump() + "\n");
-  }
-
-  bool has(std::size_t round) const {
-    return fs::exists(file(round, "base")) && fs::exists(file(round, "head"));
-  }
-  void keep(std::size_t round, const std::string& side, const fs::path& results) const {
-    write_file_atomically(file(round, side), suite::read_text_file(results));
-  }
-  fs::path file(std::size_t round, const std::string& side) const {
-    return folder_ / (std::to_string(round + 1) + "-" + side + ".json");
-  }
-  void clear() const {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
- private:
-  static constexpr const char* kHead = "rounds.json";
-  fs::path folder_;
-};
 
 // Base head, head base, base head, ...: what slows the machine down for a while hits both. Every
 // run is a fresh process with results of its own in OUT/base or OUT/head, where the last ones
@@ -268,23 +203,26 @@ class KeptRounds {
 // @throws InputError when a program cannot be started, is refused its input or leaves no results
 // that can be read; Interrupted
 std::vector<results::AbRound> run_rounds(const std::vector<AbSide>& sides,
-                                         const AbArguments& arguments, const KeptRounds& kept,
+                                         const AbArguments& arguments, suite::KeptParts& kept,
                                          const std::function<void(std::size_t)>& on_round) {
   const std::string &old_name = sides.at(0).detector, &new_name = sides.at(1).detector;
   const std::string row = old_name == new_name ? new_name : old_name + " -> " + new_name;
-  const Build builds[] = {{sides.at(0), row, arguments}, {sides.at(1), row, arguments}};
+  const Build base(sides.at(0), row, arguments), head(sides.at(1), row, arguments);
   std::vector<results::AbRound> rounds(arguments.rounds);
   for (std::size_t r = 0; r < rounds.size(); ++r) {
-    // A round is taken over whole: its halves are compared because they ran beside each other.
-    if (!kept.has(r)) {
-      on_round(r);
-      for (const std::size_t side : {r % 2, 1 - r % 2}) {
-        builds[side].run();
-        kept.keep(r, sides[side].name, builds[side].results_file());
-      }
+    // A round is kept whole: its halves are compared because they ran beside each other.
+    const std::string what = "round " + std::to_string(r + 1);
+    if (const auto part = kept.take(what)) {
+      rounds[r] = {results::from_json(part->at("base")), results::from_json(part->at("head"))};
+      continue;
     }
-    rounds[r].base = builds[0].results_of(kept.file(r, "base"));
-    rounds[r].head = builds[1].results_of(kept.file(r, "head"));
+    on_round(r);
+    const bool base_first = r % 2 == 0;
+    if (base_first) rounds[r].base = base.run();
+    rounds[r].head = head.run();
+    if (!base_first) rounds[r].base = base.run();
+    kept.keep(what, {{"base", results::to_json(rounds[r].base)},
+                     {"head", results::to_json(rounds[r].head)}});
   }
   kept.clear();
   return rounds;
@@ -321,7 +259,15 @@ int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog) {
   const std::vector<AbSide> sides = ab_sides(arguments, catalog);
   check_out(arguments.out);
   const suite::OutLock lock(arguments.out);
-  const KeptRounds kept(arguments, identity_of_ab(sides, arguments));
+  suite::KeptParts kept({arguments.out, identity_of_ab(sides, arguments), arguments.command_line,
+                         arguments.resume, arguments.overwrite},
+                        "rounds", [](std::size_t parts) {
+                          return "an interrupted comparison has left " +
+                                 text::counted(parts, "whole round");
+                        });
+  if (arguments.resume && !arguments.quiet)
+    std::fprintf(stderr, "resumed: %zu of %s\n", std::min(kept.found(), arguments.rounds),
+                 text::counted(arguments.rounds, "round").c_str());
   const std::vector<results::AbRound> rounds =
       run_rounds(sides, arguments, kept, [&](std::size_t round) {
         if (!arguments.quiet)

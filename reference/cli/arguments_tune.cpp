@@ -81,6 +81,9 @@ void add_tune(CommandLine& line) {
   tune->add_option("--out", arguments->out,
                    "folder for tune.json, tune.md, chosen.json (default out)")
       ->type_name("DIR");
+  tune->add_flag("--resume", arguments->resume,
+                 "take over what an interrupted search in --out has measured");
+  tune->add_flag("--overwrite", arguments->overwrite, "discard that");
   tune->add_flag("--quiet", arguments->quiet, "print no progress and no tables");
   tune->footer(
       "A detector's options are varied, except those that its name sets. The choice is confirmed\n"

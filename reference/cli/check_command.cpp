@@ -19,7 +19,6 @@
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/event_lines.h"
-#include "reference/cli/kept_work.h"
 #include "reference/cli/progress_display.h"
 #include "reference/judge/frame_check.h"
 #include "reference/judge/step_check.h"
@@ -28,6 +27,7 @@
 #include "reference/results/results.h"
 #include "reference/scene/frame_files.h"
 #include "reference/scene/read_ahead.h"
+#include "reference/suite/kept_work.h"
 #include "reference/suite/out_lock.h"
 #include "reference/text/counted.h"
 #include "reference/text/file_text.h"
@@ -142,8 +142,8 @@ std::string identity_of_check(const CheckArguments& arguments, const Subject& su
     hash.bytes(body.name.data(), body.name.size());
     hash.value(content_hash(body.shape->mesh));
   }
-  return identity_of("bodies: " + results::hex(hash.digest()) +
-                     "\noptions: " + option_words(arguments) + "\n");
+  return suite::identity_of("bodies: " + results::hex(hash.digest()) +
+                            "\noptions: " + option_words(arguments) + "\n");
 }
 
 /// The frames that an earlier check of the same has left in --out.
@@ -152,11 +152,10 @@ std::vector<CheckedFrame> taken_over(const CheckArguments& arguments, const Subj
   CheckLog log = CheckLog::read(file);
   const bool same = log.identity == identity;
   if (!log.ended && !log.frames.empty())
-    require_nothing_lost(
-        arguments.out,
+    suite::require_nothing_lost(
         {"an interrupted check has left " + counted(log.frames.size(), "checked frame"),
          log.identity, log.command},
-        identity, arguments.resume, arguments.overwrite);
+        {arguments.out, identity, "", arguments.resume, arguments.overwrite});
   if (!arguments.resume) return {};
   std::size_t good = 0;
   while (same && good < log.frames.size() && good < subject.scene.frames &&

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
@@ -12,7 +13,10 @@
 #include "reference/process/exit_codes.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/simulation_spec.h"
+#include "reference/suite/kept_work.h"
+#include "reference/suite/machine.h"
 #include "reference/suite/out_lock.h"
+#include "reference/text/counted.h"
 #include "reference/tune/chosen_file.h"
 #include "reference/tune/tune_text.h"
 
@@ -93,6 +97,27 @@ tune::TuningRequest make_request(const TuneArguments& arguments, const OwnDetect
   return request;
 }
 
+// Everything that a search goes by.
+std::string identity_of_search(const TuneArguments& arguments, const OwnDetectors& own,
+                               const tune::TuningRequest& request) {
+  std::string words = arguments.command_line + " ";
+  for (const std::string flag : {" --resume ", " --overwrite ", " --quiet "})
+    for (std::size_t at; (at = words.find(flag)) != std::string::npos;)
+      words.replace(at, flag.size(), " ");
+  std::string lines = "words: " + words + "\n";
+  for (const plugin::Plugin& plugin : own.plugins) {
+    std::istringstream parts(plugin.source.text);  // of a command
+    lines += plugin.declaration.id + ":";
+    for (std::string part; parts >> part;) lines += " " + suite::content_of_word(part);
+    lines += "\n";
+  }
+  for (const auto& [setting, value] : suite::named_settings(request.settings))
+    lines += setting + ": " + value + "\n";
+  for (const auto& [member, value] : results::members_of(suite::describe_machine()))
+    lines += member + ": " + value + "\n";
+  return suite::identity_of(lines);
+}
+
 // A line that is overwritten on a terminal, one per step elsewhere.
 void show(const tune::TuningProgress& progress) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -120,15 +145,25 @@ void write_files(const tune::Tuning& tuning, const tune::TuningRequest& request)
 int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog) {
   const OwnDetectors own =
       load_own_detectors(arguments.detectors, arguments.commands, settings_of(arguments), catalog);
-  const tune::TuningRequest request = make_request(arguments, own);
+  tune::TuningRequest request = make_request(arguments, own);
   check_out(arguments.out);
   const suite::OutLock lock(arguments.out);
+  suite::KeptParts kept({arguments.out, identity_of_search(arguments, own, request),
+                         arguments.command_line, arguments.resume, arguments.overwrite},
+                        "measured", [](std::size_t parts) {
+                          return "an interrupted search has left " +
+                                 text::counted(parts, "measured run");
+                        });
+  if (arguments.resume && !arguments.quiet)
+    std::fprintf(stderr, "resumed: %s\n", text::counted(kept.found(), "measured run").c_str());
+  request.kept = &kept;
   const tune::Tuning tuning =
       tune::tune(request, own.catalog, [&](const tune::TuningProgress& progress) {
         if (!arguments.quiet) show(progress);
       });
   if (!arguments.quiet && isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
   write_files(tuning, request);
+  kept.clear();
   if (!arguments.quiet) std::printf("%s\n", tune::tuning_text(tuning, request).c_str());
   std::printf("%s  %s%s%s\n", (arguments.out / "tune.json").c_str(),
               (arguments.out / "tune.md").c_str(), tuning.chosen ? "  " : "",

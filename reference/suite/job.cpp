@@ -41,6 +41,11 @@ static auto elements(PhaseSample& s) {
   return std::tie(s.map, s.update, s.query, s.cpu, s.taken, s.reported);
 }
 
+template <typename Io>
+void fields(Io& io, QuestionSamples& s) {
+  CONTACTCHECK_FIELDS(io, s, question, lazy_map, playback, cold);
+}
+
 }  // namespace contactcheck::timing
 
 namespace contactcheck::scene {
@@ -152,6 +157,16 @@ std::string read_text_file(const std::filesystem::path& file) {
   text << in.rdbuf();
   if (!in) throw InputError(name + " cannot be read: " + std::strerror(errno) + ".");
   return text.str();
+}
+
+nlohmann::ordered_json samples_json(timing::QuestionSamples samples) {
+  return text::described(samples);
+}
+
+timing::QuestionSamples samples_from_json(const nlohmann::ordered_json& json) {
+  timing::QuestionSamples out;
+  text::read_described(json, out);
+  return out;
 }
 
 }  // namespace contactcheck::suite

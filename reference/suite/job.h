@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -108,6 +109,10 @@ struct SceneAnswer {
 void write_answer(const std::filesystem::path& file, SceneAnswer answer);
 /// @throws nlohmann::json::exception for a file that write_answer did not write
 SceneAnswer read_answer(const std::filesystem::path& file);
+
+/// Samples, as they are kept. @throws nlohmann::json::exception for what is no such JSON
+nlohmann::ordered_json samples_json(timing::QuestionSamples samples);
+timing::QuestionSamples samples_from_json(const nlohmann::ordered_json& json);
 
 /// @throws InputError with the path when it is no regular file or cannot be read
 std::string read_text_file(const std::filesystem::path& file);

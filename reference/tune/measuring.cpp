@@ -12,10 +12,14 @@
 
 #include "core/types/check.h"
 #include "reference/results/results.h"
+#include "reference/results/results_json.h"
 #include "reference/results/statistics.h"
 #include "reference/scene/frame_positions.h"
 #include "reference/scene/scene.h"
+#include "reference/suite/job.h"
 #include "reference/suite/out_folder.h"
+#include "reference/suite/run_identity.h"
+#include "reference/text/lists.h"
 #include "reference/tune/scene_variant.h"
 #include "reference/tune/space.h"
 
@@ -205,6 +209,7 @@ std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& b
 
 results::Results Measuring::run(const std::vector<ModelKey>& keys,
                                 const std::vector<std::size_t>& batch, Times& times) const {
+  std::string what;
   suite::SuiteRequest suite;
   for (const ModelKey& key : keys) {
     suite::SceneTask task;
@@ -217,9 +222,20 @@ results::Results Measuring::run(const std::vector<ModelKey>& keys,
     if (!anchor_.empty()) add(anchor_);
     for (const std::size_t i : batch)
       if (key_of(candidates_[i]) == key) add(candidates_[i].detector);
-    task.frames = scene::load_any_scene(task.source, request_.settings.frames).frames;
-    if (!task.detectors.empty()) suite.tasks.push_back(std::move(task));
+    const scene::Scene scene = scene::load_any_scene(task.source, request_.settings.frames);
+    task.frames = scene.frames;
+    if (task.detectors.empty()) continue;
+    what += task.id + " " + suite::content_of(task.source, scene) + ", " +
+            std::to_string(task.frames) + " frames: " + text::joined(task.detectors) + "\n";
+    suite.tasks.push_back(std::move(task));
   }
+  if (request_.kept != nullptr)
+    if (const auto part = request_.kept->take(what)) {
+      for (const auto& entry : part->at("times"))
+        times[{entry.at(0).get<std::string>(), entry.at(1).get<std::string>()}] =
+            suite::samples_from_json(entry.at(2));
+      return results::from_json(part->at("results"));
+    }
   const suite::ScratchFolder scratch(request_.work);
   suite.settings = request_.settings;
   suite.out = scratch.path();
@@ -234,6 +250,12 @@ results::Results Measuring::run(const std::vector<ModelKey>& keys,
   results::Results results = suite::run_suite(suite, listener, &outcome);
   for (const results::Scene& scene : results.scenes)  // without truth nothing can be chosen by
     if (!scene.unjudged.empty()) throw InputError(scene.unjudged);
+  if (request_.kept != nullptr) {
+    Json measured = Json::array();
+    for (const auto& [name, samples] : times)
+      measured.push_back({name.first, name.second, suite::samples_json(samples)});
+    request_.kept->keep(what, {{"results", results::to_json(results)}, {"times", measured}});
+  }
   return results;
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/types/semantics.h"
 #include "reference/scene/scene.h"
+#include "reference/suite/kept_work.h"
 #include "reference/suite/suite_run.h"
 #include "reference/tune/candidate.h"
 #include "reference/tune/measurement.h"
@@ -85,6 +86,8 @@ struct MeasuringRequest {
   std::filesystem::path executable;  ///< see SuiteRequest
   results::KnownDefects known_defects;
   suite::SuiteListener listener;
+  /// Runs that were measured before, and those to be kept; null: none.
+  suite::KeptParts* kept = nullptr;
   /// The detector that costs are relative to; empty: the first that is measured and answers.
   std::string anchor;
 };

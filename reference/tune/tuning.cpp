@@ -30,6 +30,7 @@ MeasuringRequest measuring_request(const TuningRequest& request, const Tuning& t
   measuring.work = request.out / "tune";
   measuring.executable = request.executable;
   measuring.known_defects = request.known_defects;
+  measuring.kept = request.kept;
   return measuring;
 }
 

@@ -33,6 +33,9 @@ struct TuningRequest {
   std::filesystem::path executable;
   results::KnownDefects known_defects;
   std::string command;  ///< for the record
+  /// Runs that an interrupted search has measured, and where those of this one are kept; null:
+  /// none.
+  suite::KeptParts* kept = nullptr;
   /// For plug-ins, by id: the library's file, or the command.
   std::map<std::string, std::string> libraries, commands;
 };

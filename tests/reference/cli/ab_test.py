@@ -197,7 +197,7 @@ def test_refuses_to_discard_rounds(tmp_path):
     other = contactcheck(*words, "--resume")
     assert other.exit_code == 2
     assert "of another one (other base): contactcheck ab " in other.err
-    assert (tmp_path / "out" / "rounds" / "3-head.json").exists()
+    assert (tmp_path / "out" / "rounds" / "3.json").exists()
     for name in ("base", "head"):
         (tmp_path / f"{name}.count").unlink()
     outcome = contactcheck(*words, "--overwrite")

@@ -3,10 +3,11 @@
 import json
 import re
 import shlex
+import signal
 
 import pytest
 
-from program import contactcheck, successful, tiny_scene
+from program import PROGRAM, RunningProgram, contactcheck, successful, tiny_scene
 
 CELL_3 = "ffd-aabb+tri:cell=3,bounds=paper,precision=double"
 
@@ -142,3 +143,26 @@ def test_tune_refuses_scenes_that_it_cannot_vary(tune, scene, words, named):
     refused = contactcheck("tune", scene, "--out", tune.out, *words)
     assert refused.exit_code == 2
     assert named in refused.err
+
+
+def test_tune_goes_on_after_an_interruption(tune):
+    words = tune.words("--detector", "ffd-aabb+tri:precision=double", "--exhaustive")
+    kept = tune.out / "measured"
+    with RunningProgram(PROGRAM, words) as program:
+        assert program.wait_for((kept / "1.json").exists)
+        program.send(signal.SIGKILL)
+        program.outcome()
+    parts = {file.name: file.read_bytes() for file in kept.glob("[0-9]*.json")}
+    refused = contactcheck(*words)
+    assert refused.exit_code == 2
+    assert re.search(r"an interrupted search has left \d+ measured runs? there: --resume takes them over, "
+                     r"--overwrite discards them\n", refused.err)
+    other = contactcheck(*words, "--max-spurious", "3", "--resume")
+    assert other.exit_code == 2
+    assert "of another one (other words): contactcheck tune " in other.err
+    assert {file.name: file.read_bytes() for file in kept.glob("[0-9]*.json")} == parts
+    resumed = contactcheck(*words, "--resume")
+    assert resumed.exit_code == 0, resumed.err
+    assert re.match(r"resumed: [1-9]\d* measured runs?\n", resumed.err)
+    assert not kept.exists()
+    assert len(tune.result["measured"]) == tune.result["candidates"]

@@ -1,0 +1,100 @@
+#include "reference/suite/kept_work.h"
+
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include "core/deform/atomic_file.h"
+#include "core/types/check.h"
+#include "reference/suite/job.h"
+#include "reference/suite/run_identity.h"
+#include "reference/text/lists.h"
+
+namespace contactcheck::suite {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHead = "kept.json";
+
+}  // namespace
+
+std::string identity_of(const std::string& lines) {
+  return "version: " CONTACTCHECK_VERSION "\nprogram: " +
+         hash_of_file(fs::read_symlink("/proc/self/exe")) + "\n" + lines;
+}
+
+std::string content_of_word(const std::string& word) {
+  std::error_code ignored;
+  return fs::is_regular_file(word, ignored) ? hash_of_file(word) : "";
+}
+
+void require_nothing_lost(const KeptWork& kept, const WorkToDo& work) {
+  if (kept.left.empty() || work.overwrite) return;
+  const std::string left = "--out " + work.out.string() + ": " + kept.left + " there";
+  if (kept.identity != work.identity)
+    throw InputError(left + ", of another one (other " +
+                     text::joined(differences(kept.identity, work.identity)) + "): " +
+                     kept.command + "; --overwrite discards them, another --out keeps them");
+  if (!work.resume)
+    throw InputError(left + ": --resume takes them over, --overwrite discards them");
+}
+
+KeptParts::KeptParts(const WorkToDo& work, const std::string& folder,
+                     const std::function<std::string(std::size_t parts)>& left)
+    : folder_(work.out / folder) {
+  KeptWork kept;
+  std::size_t parts = 0;
+  try {
+    const Json head = Json::parse(read_text_file(folder_ / kHead));
+    kept.identity = head.at("identity").get<std::string>();
+    kept.command = head.at("command").get<std::string>();
+    while (fs::exists(file(parts))) ++parts;
+  } catch (const std::exception&) {
+    // There are none, or they are no parts.
+  }
+  if (parts > 0) kept.left = left(parts);
+  require_nothing_lost(kept, work);
+  if (work.resume && kept.identity == work.identity) {
+    found_ = parts;
+    return;
+  }
+  clear();
+  std::error_code error;
+  fs::create_directories(folder_, error);  // who writes into it says why that fails
+  const Json head = {{"identity", work.identity}, {"command", work.command}};
+  write_file_atomically(folder_ / kHead, head.dump() + "\n");
+}
+
+fs::path KeptParts::file(std::size_t part) const {
+  return folder_ / (std::to_string(part + 1) + ".json");
+}
+
+std::optional<KeptParts::Json> KeptParts::take(const std::string& what) {
+  if (next_ >= found_) return std::nullopt;
+  try {
+    Json json = Json::parse(read_text_file(file(next_)));
+    if (json.at("what") == what) {
+      ++next_;
+      return std::move(json.at("part"));
+    }
+  } catch (const std::exception&) {
+    // A damaged part counts as none.
+  }
+  found_ = next_;
+  return std::nullopt;
+}
+
+void KeptParts::keep(const std::string& what, Json part) {
+  const Json json = {{"what", what}, {"part", std::move(part)}};
+  write_file_atomically(file(next_),
+                        json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  found_ = ++next_;
+}
+
+void KeptParts::clear() const {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+}  // namespace contactcheck::suite

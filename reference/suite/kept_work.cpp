@@ -60,10 +60,7 @@ KeptParts::KeptParts(const WorkToDo& work, const std::string& folder,
     return;
   }
   clear();
-  std::error_code error;
-  fs::create_directories(folder_, error);  // who writes into it says why that fails
-  const Json head = {{"identity", work.identity}, {"command", work.command}};
-  write_file_atomically(folder_ / kHead, head.dump() + "\n");
+  head_ = {{"identity", work.identity}, {"command", work.command}};
 }
 
 fs::path KeptParts::file(std::size_t part) const {
@@ -86,6 +83,12 @@ std::optional<KeptParts::Json> KeptParts::take(const std::string& what) {
 }
 
 void KeptParts::keep(const std::string& what, Json part) {
+  if (!head_.is_null()) {
+    std::error_code error;
+    fs::create_directories(folder_, error);  // the writer says why that fails
+    write_file_atomically(folder_ / kHead, head_.dump() + "\n");
+    head_ = nullptr;
+  }
   const Json json = {{"what", what}, {"part", std::move(part)}};
   write_file_atomically(file(next_),
                         json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -40,7 +40,7 @@ class KeptParts {
   using Json = nlohmann::ordered_json;
 
   /// `folder`: its name in --out. `left`: says how many there are. @throws InputError when some
-  /// would be lost, or the folder cannot be written
+  /// would be lost
   KeptParts(const WorkToDo& work, const std::string& folder,
             const std::function<std::string(std::size_t parts)>& left);
 
@@ -57,6 +57,7 @@ class KeptParts {
   std::filesystem::path file(std::size_t part) const;
 
   std::filesystem::path folder_;
+  Json head_;  // not written yet: where nothing is kept, nothing is left behind
   std::size_t found_ = 0, next_ = 0;
 };
 

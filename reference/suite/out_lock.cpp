@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "core/types/check.h"
@@ -26,8 +28,15 @@ int open_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 OutLock::OutLock(const std::filesystem::path& out) : fd_(open_folder(out)) {
-  if (fd_ < 0 || flock(fd_, LOCK_EX | LOCK_NB) == 0) return;
-  const bool held = errno == EWOULDBLOCK;
+  // The processes of a program that was just killed end a moment after it.
+  constexpr auto kPatience = std::chrono::milliseconds(200), kPoll = std::chrono::milliseconds(10);
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  bool held = false;
+  do {
+    if (fd_ < 0 || flock(fd_, LOCK_EX | LOCK_NB) == 0) return;
+    held = errno == EWOULDBLOCK;
+    if (held) std::this_thread::sleep_for(kPoll);
+  } while (held && std::chrono::steady_clock::now() < end);
   close(std::exchange(fd_, -1));
   if (held)
     throw InputError("--out " + out.string() +

@@ -11,7 +11,7 @@ namespace contactcheck::suite {
 /// no locks, nothing is held.
 class OutLock {
  public:
-  /// @throws InputError with the folder when it is held
+  /// Waits for it for .2 s. @throws InputError with the folder when it is held
   explicit OutLock(const std::filesystem::path& out);
   ~OutLock();
   OutLock(OutLock&& other) noexcept;

@@ -145,7 +145,7 @@ def test_second_run_into_a_folder_is_refused_until_the_first_has_ended(folder):
         assert not holder.has_ended(), "it must hold its folder meanwhile"
         holder.send(signal.SIGKILL)
         holder.outcome()
-    results, _ = run(folder, ["first"], ["--resume"])
+    results, _ = run(folder, ["first"], ["--resume", "--overwrite"])
     assert len(results["runs"]) == 2, "at once"
 
 

@@ -1,8 +1,8 @@
 """The verdict on a mutant: its program is built and judges itself (mutant_judge.cpp).
 
 Programs are built without unity files, in a build folder of their own, so that a changed header
-changes all its users and nothing more is compiled. A sample of few is cheaper beside a build that is
-there. Precompiled headers hold no file of this repository.
+changes all its users and nothing more is compiled. Precompiled headers hold no file of this
+repository.
 """
 
 import collections
@@ -27,15 +27,13 @@ CONFIGURATION = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
 Verdict = collections.namedtuple("Verdict", "code by")
 
 
-def unchanged_build(folder, jobs, configured=False):
-    """The judge without a patch, up to date, in the build folder, which is configured here unless it
-    is somebody else's."""
+def unchanged_build(folder, jobs):
+    """The judge without a patch, up to date, in the build folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    configure = ["cmake", "-S", str(ROOT), "-B", str(folder), *CONFIGURATION]
-    compile_ = ["cmake", "--build", str(folder), "--target", PROGRAM, "-j", str(jobs)]
     with open(folder / "lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        for command in [compile_] if configured else [configure, compile_]:
+        for command in (["cmake", "-S", str(ROOT), "-B", str(folder), *CONFIGURATION],
+                        ["cmake", "--build", str(folder), "--target", PROGRAM, "-j", str(jobs)]):
             done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                   text=True, check=False)
             if done.returncode != 0:
@@ -68,7 +66,7 @@ def verdict(mutant, build, workers):
     try:
         with tempfile.TemporaryDirectory(prefix="mutant-") as folder:
             scratch = pathlib.Path(folder)
-            build_program(mutant, build, scratch / PROGRAM, scratch, workers, QUICK_FLAGS)
+            build_program(mutant, build, scratch / PROGRAM, scratch, workers)
             faults = judge(scratch / PROGRAM, workers)
     except Failure as failure:
         return Verdict(failure.code, str(failure))

@@ -25,24 +25,40 @@ compile or link; the largest of all mutants. Stale verdicts alone are no failure
 import argparse
 import os
 import pathlib
+import subprocess
 import sys
 import time
 
 import kept_verdicts
-from mutant_build import CAUGHT, ROOT, SURVIVED, Failure, Mutant, OutOfTime, Workers
-from mutant_verdict import WORDS, require_clean, unchanged_build, verdict
+from mutant_build import (CAUGHT, DOES_NOT_COMPILE, QUICK_FLAGS, ROOT, SURVIVED, Build, Failure, Mutant,
+                          OutOfTime, Workers)
+from mutant_verdict import PROGRAM, WORDS, require_clean, unchanged_build, verdict
 from python_tests import ProductJudge
 
 
 OWN_BUILD = ROOT / "build" / "mutants"
 
 
+def beside(folder, jobs):
+    """The judge without a patch in a folder that is configured. What is compiled anew for a mutant
+    need not be fast."""
+    done = subprocess.run(["cmake", "--build", str(folder), "--target", PROGRAM, "-j", str(jobs)],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    if done.returncode != 0:
+        raise Failure(DOES_NOT_COMPILE, f"the unchanged program: {done.stdout}")
+    build = Build(folder, PROGRAM)
+    build.units = [unit._replace(command=[*unit.command, *QUICK_FLAGS]) for unit in build.units]
+    return build
+
+
 class CoreJudge:
     """The program made for the mutants of core, in a build folder of its own or a configured one."""
 
     def __init__(self, options, workers):
-        self.build = unchanged_build(options.build.resolve(), options.jobs,
-                                     configured=options.build != OWN_BUILD)
+        if options.build == OWN_BUILD:
+            self.build = unchanged_build(options.build, options.jobs)
+        else:
+            self.build = beside(options.build.resolve(), options.jobs)
         require_clean(self.build, workers)
 
     def verdict(self, mutant, workers):

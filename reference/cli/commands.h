@@ -103,7 +103,7 @@ struct TuneArguments {
   std::optional<double> budget_ms;
   std::size_t frames = 0, processes = 5, most = 0;
   bool exhaustive = false, quiet = false;
-  bool resume = false, overwrite = false;  ///< measurements of an interrupted search
+  bool resume = false, overwrite = false;               ///< measurements of an interrupted search
   double call_limit = suite::RunSettings{}.call_limit;  ///< seconds
   std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
   std::filesystem::path out = "out";

@@ -8,7 +8,7 @@
 namespace contactcheck::check {
 
 /// One line per contact (RFC 4180), of frames and of steps. Columns that do not apply are empty.
-/// fixtures/README.md, "Events", explains the values.
+/// fixtures/README.md, "Checked frames", explains the columns.
 std::string check_csv(const CheckSummary& summary);
 
 /// Schema contactcheck-check/1: `command`, `frames` and `steps` as events have them, and of the end

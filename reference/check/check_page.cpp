@@ -1,6 +1,7 @@
 #include "reference/check/check_page.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -32,6 +33,7 @@ std::vector<std::string> step_words(const CheckSummary& summary, const CheckedFr
     if (!summary.found(frame.step.event.at("contacts").at(i))) continue;
     std::string words = frame.step.words[i];
     if (words.ends_with(paths)) words.resize(words.size() - paths.size());
+    if (frame.step.event.at("contacts").at(i).at("allowed").get<bool>()) words += ", allowed";
     out.push_back(std::move(words));
   }
   return out;
@@ -164,6 +166,9 @@ std::vector<std::size_t> shown_frames(const CheckSummary& summary, std::size_t m
     out = std::move(all);
     break;
   }
+  // Where even first and deepest are too many: of the first what there is room for.
+  if (out.size() > most) out = places.front();
+  while (out.size() > most) out.erase(std::prev(out.end()));
   return {out.begin(), out.end()};
 }
 
@@ -191,9 +196,9 @@ std::string check_page(const scene::Scene& scene, const FrameWords& words,
                            : view.frames.size() < all
                                ? std::to_string(view.frames.size()) + " of " +
                                      counted(all, "frame") +
-                                     " with contacts: the first, the deepest and others evenly. "
-                                     "`--keep FRAME` writes any "
-                                     "frame as a recording."
+                                     " with contacts in them or next to them: the first, the "
+                                     "deepest and others evenly. `--keep FRAME` writes any frame "
+                                     "as a recording."
                                : "";
   const Json page = {{"version", CONTACTCHECK_VERSION},
                      {"title", summary.title()},

@@ -1,4 +1,4 @@
-// The page of a check: every contact in a list, counts and depths over the frames, and some frames
+// The page of a check: the contacts in a list, counts and depths over the frames, and some frames
 // in 3D.
 #pragma once
 

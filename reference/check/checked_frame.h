@@ -22,7 +22,8 @@ using FlatPairs = std::vector<std::uint32_t>;
 struct FoundContacts {
   Json event;                      ///< as events have it (fixtures/README.md); null: none
   std::vector<std::string> words;  ///< a sentence per contact, those of `event` in their order
-  FlatPairs pairs;                 ///< of a step: triangles of the elements that are first to meet
+  FlatPairs pairs;  ///< of a step: triangles of the elements that are first to meet, where that is
+                    ///< not judged by the frames
 };
 
 struct CheckedFrame {

@@ -109,8 +109,9 @@ FoundContacts FrameWords::of_step(std::size_t step,
                {"elements", elements_json(*c.first)},
                {"place", {c.first->place.x(), c.first->place.y(), c.first->place.z()}},
                {"place_error", c.first->place_error}};
-      out.pairs.insert(out.pairs.end(), {c.first->bodies[0], triangle_of(*c.first, 0),
-                                         c.first->bodies[1], triangle_of(*c.first, 1)});
+      if (!allowed_.in_step(c))
+        out.pairs.insert(out.pairs.end(), {c.first->bodies[0], triangle_of(*c.first, 0),
+                                           c.first->bodies[1], triangle_of(*c.first, 1)});
     }
     Json one = {{"bodies", {name(c.bodies.a), name(c.bodies.b)}},
                 {"start", words_of(c.start)},

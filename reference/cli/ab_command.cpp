@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,6 +20,7 @@
 #include "reference/cli/github_job.h"
 #include "reference/cli/own_detectors.h"
 #include "reference/gate/output.h"
+#include "reference/judge/frame_check.h"
 #include "reference/process/exit_codes.h"
 #include "reference/process/interrupts.h"
 #include "reference/process/worker_process.h"
@@ -29,6 +30,8 @@
 #include "reference/suite/kept_work.h"
 #include "reference/suite/machine.h"
 #include "reference/suite/out_lock.h"
+#include "reference/suite/run_identity.h"
+#include "reference/suite/run_plan.h"
 #include "reference/text/counted.h"
 #include "reference/text/printable.h"
 
@@ -43,6 +46,7 @@ struct AbSide {
   std::filesystem::path program;   ///< absolute
   std::vector<std::string> flags;  ///< that name its detectors
   std::string detector;            ///< of a side that is one; empty: a program with its own
+  std::string content;             ///< of the program or plug-in: another one is another side
 };
 
 /// A program, or a detector that this one runs.
@@ -58,18 +62,26 @@ SideKind kind_of(const std::string& text, const DetectorCatalog& catalog) {
   return words && !fs::exists(text) ? SideKind::kCommand : SideKind::kProgram;
 }
 
-std::string detector_name(const std::string& text, SideKind kind, const DetectorCatalog& catalog) {
-  if (kind == SideKind::kBuiltIn) return catalog.parse(text).name;
+// "" where there is no such file.
+std::string content_of_file(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? suite::hash_of_file(file) : "";
+}
+
+// Name and content of a side that is a detector.
+std::pair<std::string, std::string> examined(const std::string& text, SideKind kind,
+                                             const DetectorCatalog& catalog) {
+  if (kind == SideKind::kBuiltIn) return {catalog.parse(text).name, ""};
   const bool library = kind == SideKind::kLibrary;
   const OwnDetectors own = load_own_detectors(
       library ? std::vector{text} : std::vector<std::string>(),
       library ? std::vector<std::string>() : std::vector{text}, suite::RunSettings{}, catalog);
-  return own.catalog.parse(own.names.front()).name;
+  return {own.catalog.parse(own.names.front()).name, own.plugins.front().content};
 }
 
 AbSide side_of(const char* name, const std::string& text, SideKind kind,
                const AbArguments& arguments, const DetectorCatalog& catalog) {
-  AbSide side = {name, fs::absolute(text), {}, ""};
+  AbSide side = {name, fs::absolute(text), {}, "", ""};
   if (kind == SideKind::kProgram) {
     if (!fs::is_regular_file(side.program) || access(side.program.c_str(), X_OK) != 0) {
       std::vector<std::string> ids;
@@ -78,16 +90,19 @@ AbSide side_of(const char* name, const std::string& text, SideKind kind,
       throw InputError(std::string(name) + " \"" + text + "\" is not a program that can be run" +
                        (near.empty() ? "" : "; " + near.substr(0, near.size() - 1)));
     }
+    side.content = suite::hash_of_file(side.program);
   } else {
     side.program = fs::read_symlink("/proc/self/exe");
     side.flags = {kind == SideKind::kCommand ? "--detector-cmd" : "--detector", text};
-    side.detector = detector_name(text, kind, catalog);
+    std::tie(side.detector, side.content) = examined(text, kind, catalog);
   }
   for (const std::string& detector : arguments.detectors) {
     if (detector == text)
       throw InputError("--detector " + detector + ": " + name + " is this detector already");
     side.flags.push_back("--detector");
     side.flags.push_back(detector);
+    if (names_library(detector))
+      side.content += content_of_file(detector.substr(0, detector.find(':')));
   }
   return side;
 }
@@ -175,23 +190,35 @@ class Build {
   std::vector<std::string> words_;
 };
 
+// Of the scenes that are named, as this program reads them; of files at least the bytes.
+std::string scenes_line(const AbArguments& arguments, const DetectorCatalog& catalog) {
+  std::string line = "scenes:";
+  for (const std::string& target : arguments.targets)
+    line += " " + target + " " + content_of_file(target);
+  try {
+    suite::RunTargets wanted;
+    wanted.targets = arguments.targets;
+    wanted.frames = arguments.frames;
+    wanted.detectors = {judge::kFrameDetector};
+    if (!arguments.targets.empty())
+      for (const suite::SceneTask& task : suite::plan_run(wanted, catalog).scenes)
+        line += " " + task.content;
+  } catch (const InputError&) {
+    // What it cannot read a program of another version may.
+  }
+  return line + "\n";
+}
+
 // All but the number of rounds: more may be added.
-std::string identity_of_ab(const std::vector<AbSide>& sides, const AbArguments& arguments) {
-  const auto known = [](const std::string& word) {
-    return " " + word + " " + suite::content_of_word(word);
-  };
+std::string identity_of_ab(const std::vector<AbSide>& sides, const AbArguments& arguments,
+                           const DetectorCatalog& catalog) {
   std::string lines;
   for (const AbSide& side : sides) {
-    lines += side.name + ":" + known(side.program.string());
-    for (const std::string& flag : side.flags) {
-      std::istringstream parts(flag);  // of a command
-      for (std::string part; parts >> part;) lines += known(part);
-    }
+    lines += side.name + ": " + side.program.string() + " " + side.content;
+    for (const std::string& flag : side.flags) lines += " " + flag;
     lines += "\n";
   }
-  lines += "scenes:";
-  for (const std::string& target : arguments.targets) lines += known(target);
-  lines += "\nframes: " + std::to_string(arguments.frames) + "\n";
+  lines += scenes_line(arguments, catalog) + "frames: " + std::to_string(arguments.frames) + "\n";
   for (const auto& [member, value] : results::members_of(suite::describe_machine()))
     lines += member + ": " + value + "\n";
   return suite::identity_of(lines);
@@ -224,7 +251,6 @@ std::vector<results::AbRound> run_rounds(const std::vector<AbSide>& sides,
     kept.keep(what, {{"base", results::to_json(rounds[r].base)},
                      {"head", results::to_json(rounds[r].head)}});
   }
-  kept.clear();
   return rounds;
 }
 
@@ -259,12 +285,15 @@ int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog) {
   const std::vector<AbSide> sides = ab_sides(arguments, catalog);
   check_out(arguments.out);
   const suite::OutLock lock(arguments.out);
-  suite::KeptParts kept({arguments.out, identity_of_ab(sides, arguments), arguments.command_line,
-                         arguments.resume, arguments.overwrite},
-                        "rounds", [](std::size_t parts) {
-                          return "an interrupted comparison has left " +
+  suite::KeptParts kept({arguments.out, identity_of_ab(sides, arguments, catalog),
+                         arguments.command_line, arguments.resume, arguments.overwrite},
+                        "kept-rounds", [](std::size_t parts) {
+                          return "a comparison that did not end has left " +
                                  text::counted(parts, "whole round");
                         });
+  process::say_when_interrupted(
+      "contactcheck: interrupted; whole rounds are kept: repeat the command with --resume to go "
+      "on\n");
   if (arguments.resume && !arguments.quiet)
     std::fprintf(stderr, "resumed: %zu of %s\n", std::min(kept.found(), arguments.rounds),
                  text::counted(arguments.rounds, "round").c_str());
@@ -277,6 +306,7 @@ int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog) {
   const results::AbJudgement judgement = results::judge_ab(rounds, setting.limits);
   std::fputs(results::ab_text(judgement, setting).c_str(), stdout);
   if (arguments.github) tell_github(summary, judgement, setting);
+  kept.clear();
   return setting.fails(judgement) ? process::kExitNo : 0;
 }
 

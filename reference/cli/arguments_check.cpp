@@ -50,7 +50,7 @@ void add_check(CommandLine& line) {
       "Exit code 1 when a frame, or with --between a step, has a contact that is not allowed.\n"
       "A contact of a certified surface depth up to METRES is allowed by --allow depth=METRES.\n"
       "With --allow impact, contacts between frames are listed and do not change the exit code.\n"
-      "check.html, check.csv and check.json in --out have every contact.\n"
+      "check.csv and check.json in --out have every contact, check.html shows them.\n"
       "Example:\n  contactcheck check cloth_*.obj ball.obj --allow depth=0.002");
   choose(*check, line, [arguments, &line] { return check_command(*arguments, line.catalog); });
 }

@@ -83,7 +83,7 @@ struct Subject {
   fs::path recording;  ///< of all frames, if it is one
 
   std::string stamp(std::size_t frame) const {
-    std::vector<fs::path> parts = files.caches;
+    std::vector<fs::path> parts = files.others;
     if (!recording.empty()) parts.push_back(recording);
     if (frame < files.moving.size())
       parts.insert(parts.end(), files.moving[frame].begin(), files.moving[frame].end());
@@ -135,12 +135,13 @@ std::string command_of(const CheckArguments& arguments, const Subject& subject) 
   return out + option_words(arguments);
 }
 
-// Frames may be added: each has a stamp of its own.
+// Not the vertices: each frame has a stamp of its own, and frames may be added.
 std::string identity_of_check(const CheckArguments& arguments, const Subject& subject) {
   Fnv1a hash;
   for (const Body& body : subject.scene.bodies) {
     hash.bytes(body.name.data(), body.name.size());
-    hash.value(content_hash(body.shape->mesh));
+    const std::vector<Triangle>& triangles = body.shape->mesh.triangles;
+    hash.bytes(triangles.data(), sizeof(Triangle) * triangles.size());
   }
   return suite::identity_of("bodies: " + results::hex(hash.digest()) +
                             "\noptions: " + option_words(arguments) + "\n");
@@ -151,11 +152,17 @@ std::vector<CheckedFrame> taken_over(const CheckArguments& arguments, const Subj
                                      const std::string& identity, const fs::path& file) {
   CheckLog log = CheckLog::read(file);
   const bool same = log.identity == identity;
-  if (!log.ended && !log.frames.empty())
+  const std::string left =
+      "a check that did not end has left " + counted(log.frames.size(), "checked frame");
+  if (!log.ended && !log.frames.empty()) {
     suite::require_nothing_lost(
-        {"an interrupted check has left " + counted(log.frames.size(), "checked frame"),
-         log.identity, log.command},
+        {left, log.identity, log.command},
         {arguments.out, identity, "", arguments.resume, arguments.overwrite});
+    if (log.frames.size() > subject.scene.frames && !arguments.overwrite)
+      throw InputError("--out " + arguments.out.string() + ": " + left + " there, and here are " +
+                       counted(subject.scene.frames, "frame") + ": " + log.command +
+                       "; --overwrite discards the others, another --out keeps them");
+  }
   if (!arguments.resume) return {};
   std::size_t good = 0;
   while (same && good < log.frames.size() && good < subject.scene.frames &&
@@ -372,6 +379,11 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   const Json start = start_event(arguments, subject);
   teller.start(start);
   check::CheckLogWriter log(log_file, identity, command, taken);
+  // Those of an earlier check would pass for this one's until it ends.
+  for (const char* file : {"check.html", "check.csv", "check.json"}) {
+    std::error_code ignored;
+    fs::remove(arguments.out / file, ignored);
+  }
   process::say_when_interrupted(
       "contactcheck: interrupted; checked frames are kept: repeat the command with --resume to go "
       "on\n");
@@ -411,13 +423,14 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   }
   progress.finish();
 
-  write_recordings(kept, summary, scene, arguments.out);
   const int code = summary.bad() ? 1 : 0;
   write_file_atomically(arguments.out / "check.csv", check::check_csv(summary));
   write_file_atomically(arguments.out / "check.json",
                         check::check_json(summary, command, start, code)
                                 .dump(1, ' ', false, Json::error_handler_t::replace) +
                             "\n");
+  // What follows reads frames once more.
+  write_recordings(kept, summary, scene, arguments.out);
   const fs::path page = arguments.out / "check.html";
   if (report::has_html_report())
     write_file_atomically(page,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
@@ -11,11 +10,13 @@
 #include "reference/cli/commands.h"
 #include "reference/cli/own_detectors.h"
 #include "reference/process/exit_codes.h"
+#include "reference/process/interrupts.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/simulation_spec.h"
 #include "reference/suite/kept_work.h"
 #include "reference/suite/machine.h"
 #include "reference/suite/out_lock.h"
+#include "reference/suite/run_identity.h"
 #include "reference/text/counted.h"
 #include "reference/tune/chosen_file.h"
 #include "reference/tune/tune_text.h"
@@ -104,12 +105,11 @@ std::string identity_of_search(const TuneArguments& arguments, const OwnDetector
   for (const std::string flag : {" --resume ", " --overwrite ", " --quiet "})
     for (std::size_t at; (at = words.find(flag)) != std::string::npos;)
       words.replace(at, flag.size(), " ");
-  std::string lines = "words: " + words + "\n";
+  std::string lines =
+      "words: " + words + "\nscene: " +
+      suite::content_of(request.scene_file, scene::load_any_scene(request.scene_file)) + "\n";
   for (const plugin::Plugin& plugin : own.plugins) {
-    std::istringstream parts(plugin.source.text);  // of a command
-    lines += plugin.declaration.id + ":";
-    for (std::string part; parts >> part;) lines += " " + suite::content_of_word(part);
-    lines += "\n";
+    lines += plugin.declaration.id + ": " + plugin.content + "\n";
   }
   for (const auto& [setting, value] : suite::named_settings(request.settings))
     lines += setting + ": " + value + "\n";
@@ -150,10 +150,14 @@ int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog)
   const suite::OutLock lock(arguments.out);
   suite::KeptParts kept({arguments.out, identity_of_search(arguments, own, request),
                          arguments.command_line, arguments.resume, arguments.overwrite},
-                        "measured", [](std::size_t parts) {
-                          return "an interrupted search has left " +
+                        "kept-runs", [](std::size_t parts) {
+                          return "a search that did not end has left " +
                                  text::counted(parts, "measured run");
                         });
+  process::say_when_interrupted(
+      "contactcheck: interrupted; what was measured is kept: repeat the command with --resume to "
+      "go "
+      "on\n");
   if (arguments.resume && !arguments.quiet)
     std::fprintf(stderr, "resumed: %s\n", text::counted(kept.found(), "measured run").c_str());
   request.kept = &kept;

@@ -541,7 +541,8 @@ FrameFiles frame_files(const std::vector<fs::path>& files, const FrameRules& rul
     if (out.labels.empty() && json.contains("recording") && body.cache.empty())
       for (std::size_t frame = 0; frame < body.files.size(); ++frame)
         out.labels.push_back(label(body, frame));
-    if (!body.cache.empty()) out.caches.push_back(body.cache);
+    if (!body.moves()) out.others.push_back(body.files[0].file);
+    if (!body.cache.empty()) out.others.push_back(body.cache);
     if (body.moves()) out.moving.resize(body.files.size());
     for (std::size_t frame = 0; frame < out.moving.size() && body.moves(); ++frame)
       out.moving[frame].push_back(body.files[frame].file);

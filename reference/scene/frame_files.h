@@ -24,7 +24,7 @@ struct FrameFiles {
   std::vector<std::string> shown;      ///< by body: its files as a shell pattern: "cloth_*.obj"
   std::vector<std::string> unchecked;  ///< files of frames that some body lacks
   std::vector<std::vector<std::filesystem::path>> moving;  ///< by frame: the files of moving bodies
-  std::vector<std::filesystem::path> caches;               ///< of all frames
+  std::vector<std::filesystem::path> others;  ///< of all frames: bodies at rest, and caches
 };
 
 /// Finds the mesh files that are frames of one body, and the number of each frame. If paths differ

@@ -168,8 +168,9 @@ struct SceneText {
 };
 Scene load_scene_text(const SceneText& document, std::size_t wanted_frames = 0);
 
-/// The same, but recorded frames are read when nodes_of_frame() asks for them, each time: the
-/// memory does not grow with their number. Frames to which a lattice is fitted are read now.
+/// The same, but recorded mesh files are read when nodes_of_frame() asks for them, each time: the
+/// memory does not grow with their number. Point caches are read now, and frames to which a lattice
+/// is fitted.
 Scene load_scene_unread(const SceneText& document);
 
 /// The scene `random-pairs` (random_pairs.h), judged at the levels body, cell and triangle.

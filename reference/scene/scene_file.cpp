@@ -217,10 +217,16 @@ std::size_t recorded_frames(const text::JsonField& root, const RecordedBodies& r
 
 namespace {
 
-// `value` belongs to the fields that recordings keep for their messages.
-Scene load_value(const std::shared_ptr<const text::JsonValue>& value, const SceneText& document,
-                 std::size_t wanted_frames, bool unread) {
-  const text::JsonField root(*value, document.name);
+/// What the fields point to that recordings keep for their messages.
+struct ParsedScene {
+  std::string name;
+  text::JsonValue value;
+};
+
+Scene load_document(const SceneText& document, std::size_t wanted_frames, bool unread) {
+  const auto parsed = std::make_shared<const ParsedScene>(
+      ParsedScene{document.name, text::parse_json(document.text, document.name)});
+  const text::JsonField root(parsed->value, parsed->name);
   if (root.has("parameter")) {
     if (wanted_frames > 0)
       throw InputError("--frames: the family of cases in the " + document.name +
@@ -261,18 +267,12 @@ Scene load_value(const std::shared_ptr<const text::JsonValue>& value, const Scen
                      std::to_string(frames) + " recorded frames");
   if (wanted_frames > 0) scene.frames = wanted_frames;  // the first ones, each at its own time
   if (unread && !recorded.fits_lattices())
-    scene.read_frame = [value, recorded_bodies, base = scene](std::size_t frame) {
+    scene.read_frame = [parsed, recorded_bodies, base = scene](std::size_t frame) {
       return recorded_bodies->nodes(base, frame);
     };
   else
     recorded.fill(scene);
   return scene;
-}
-
-Scene load_document(const SceneText& document, std::size_t wanted_frames, bool unread) {
-  return load_value(
-      std::make_shared<const text::JsonValue>(text::parse_json(document.text, document.name)),
-      document, wanted_frames, unread);
 }
 
 }  // namespace

@@ -13,9 +13,6 @@ namespace contactcheck::suite {
 /// The identity of what a command does: lines "name: value" about this program, and `lines`.
 std::string identity_of(const std::string& lines);
 
-/// The contents of the file that `word` names, "" for any other word.
-std::string content_of_word(const std::string& word);
-
 struct KeptWork {
   std::string left;      ///< "an interrupted check has left 5 checked frames"; empty: nothing
   std::string identity;  ///< of what was done
@@ -50,7 +47,7 @@ class KeptParts {
   std::optional<Json> take(const std::string& what);
   /// Keeps the next part. @throws InputError when it cannot be written
   void keep(const std::string& what, Json part);
-  /// After the last one. Removes them.
+  /// After the last one. Removes them, and the folder unless other files are in it.
   void clear() const;
 
  private:

@@ -55,8 +55,8 @@ class CoreJudge:
     """The program made for the mutants of core, in a build folder of its own or a configured one."""
 
     def __init__(self, options, workers):
-        if options.build == OWN_BUILD:
-            self.build = unchanged_build(options.build, options.jobs)
+        if options.build.resolve() == OWN_BUILD:
+            self.build = unchanged_build(OWN_BUILD, options.jobs)
         else:
             self.build = beside(options.build.resolve(), options.jobs)
         require_clean(self.build, workers)

@@ -186,20 +186,29 @@ def test_goes_on_with_the_round_that_was_interrupted(tmp_path):
     assert outcome.err.startswith("resumed: 3 of 7 rounds\nround 4 of 7\n")
     assert len((tmp_path / "order").read_text().splitlines()) - before == 8, "four rounds of two"
     assert "Slower than 1.10x (1)\n  hello  ffd-aabb-sphere2  1.3" in outcome.out
-    assert not (tmp_path / "out" / "rounds").exists()
+    assert not (tmp_path / "out" / "kept-rounds").exists()
 
 
 def test_refuses_to_discard_rounds(tmp_path):
     words = killed(tmp_path)
-    assert ("an interrupted comparison has left 3 whole rounds there: --resume takes them over, --overwrite "
+    assert ("a comparison that did not end has left 3 whole rounds there: --resume takes them over, --overwrite "
             "discards them") in contactcheck(*words).err
     (tmp_path / "base").write_text(SCRIPT + "true\n", encoding="utf-8")
     other = contactcheck(*words, "--resume")
     assert other.exit_code == 2
     assert "of another one (other base): contactcheck ab " in other.err
-    assert (tmp_path / "out" / "rounds" / "3.json").exists()
+    assert (tmp_path / "out" / "kept-rounds" / "3.json").exists()
     for name in ("base", "head"):
         (tmp_path / f"{name}.count").unlink()
     outcome = contactcheck(*words, "--overwrite")
     assert outcome.exit_code == 1, outcome.err
     assert outcome.err.startswith("round 1 of 7\n")
+
+
+def test_leaves_what_others_have_put_into_its_folder(tmp_path):
+    theirs = tmp_path / "out" / "kept-rounds" / "notes.txt"
+    theirs.parent.mkdir(parents=True)
+    theirs.write_text("mine", encoding="utf-8")
+    assert ab(tmp_path).exit_code == 0
+    assert theirs.read_text(encoding="utf-8") == "mine"
+    assert len(list(theirs.parent.iterdir())) == 1

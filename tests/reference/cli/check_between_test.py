@@ -328,3 +328,11 @@ def test_refuses_what_is_no_step(tmp_path, bodies, words, sentence):
     assert outcome.exit_code == 2
     assert sentence in outcome.err
     assert outcome.err.count("\n") == 1
+
+
+def test_allowed_impacts_are_listed_as_such(tmp_path):
+    outcome = check(tmp_path, BALL, "--between", "--allow", "impact")
+    assert outcome.exit_code == 0, outcome.err
+    with open(tmp_path / "out" / "check.csv", encoding="utf-8", newline="") as file:
+        assert [row["allowed"] for row in csv.DictReader(file)] == ["yes"]
+    assert not list((tmp_path / "out").glob("*.ccr"))

@@ -46,6 +46,8 @@ TEST(ReadAhead, AnswersForAnyFrame) {
   const Counted counted;
   ReadAhead ahead(counted.reader(), 10);
   for (const std::size_t f : {4u, 9u, 0u, 0u, 2u, 1u, 5u}) EXPECT_EQ(x_of(ahead(f)), double(f));
+  EXPECT_EQ(*counted.reads, (std::vector<int>{1, 1, 1, 0, 1, 2, 0, 0, 0, 1}))
+      << "after the first one nothing is read ahead";
 }
 
 TEST(ReadAhead, FailsAtTheFrameThatFails) {

@@ -147,7 +147,7 @@ def test_tune_refuses_scenes_that_it_cannot_vary(tune, scene, words, named):
 
 def test_tune_goes_on_after_an_interruption(tune):
     words = tune.words("--detector", "ffd-aabb+tri:precision=double", "--exhaustive")
-    kept = tune.out / "measured"
+    kept = tune.out / "kept-runs"
     with RunningProgram(PROGRAM, words) as program:
         assert program.wait_for((kept / "1.json").exists)
         program.send(signal.SIGKILL)
@@ -155,11 +155,15 @@ def test_tune_goes_on_after_an_interruption(tune):
     parts = {file.name: file.read_bytes() for file in kept.glob("[0-9]*.json")}
     refused = contactcheck(*words)
     assert refused.exit_code == 2
-    assert re.search(r"an interrupted search has left \d+ measured runs? there: --resume takes them over, "
+    assert re.search(r"a search that did not end has left \d+ measured runs? there: --resume takes them over, "
                      r"--overwrite discards them\n", refused.err)
     other = contactcheck(*words, "--max-spurious", "3", "--resume")
     assert other.exit_code == 2
     assert "of another one (other words): contactcheck tune " in other.err
+    scene = tune.scene.read_text(encoding="utf-8")
+    tune.write("tiny.json", scene.replace('"title": "', '"title": "another '))
+    assert "of another one (other scene): " in contactcheck(*words, "--resume").err
+    tune.write("tiny.json", scene)
     assert {file.name: file.read_bytes() for file in kept.glob("[0-9]*.json")} == parts
     resumed = contactcheck(*words, "--resume")
     assert resumed.exit_code == 0, resumed.err

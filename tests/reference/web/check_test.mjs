@@ -38,7 +38,7 @@ async function open(file, options) {
   return report.page;
 }
 
-let many, steps, clean;
+let many, steps, allowed, clean;
 
 before(async () => {
   const files = [];
@@ -56,6 +56,15 @@ before(async () => {
   writeFileSync(join(folder, "ball_1.obj"), standing(2));
   many = check("many", ...files, "floor.obj");
   steps = check("steps", "ball_0.obj", "ball_1.obj", "floor.obj", "--between");
+  allowed = check(
+    "allowed",
+    "ball_0.obj",
+    "ball_1.obj",
+    "floor.obj",
+    "--between",
+    "--allow",
+    "impact",
+  );
   clean = check("clean", "floor.obj");
   if (!existsSync(many)) {
     console.log("skipped: this program was built without the page (npm ci failed)");
@@ -115,6 +124,16 @@ test("a step has both its ends", async () => {
     await page.locator(".view-message").textContent(),
     /^from frame 0 to 1, ball and floor: first at .* apart at both frames$/,
   );
+});
+
+test("impacts that are allowed are listed as allowed", async () => {
+  const page = await open(allowed);
+  assert.equal(
+    await page.locator("h1").textContent(),
+    "No frame and no step has a contact that is not allowed",
+  );
+  const rows = await tableTexts(page, "Contacts, frame by frame and step by step");
+  assert.match(rows[1][1], /apart at both frames, allowed$/);
 });
 
 test("clean frames have a page that says so", async () => {

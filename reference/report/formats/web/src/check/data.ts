@@ -10,7 +10,7 @@ export interface CheckPage {
   /** How many were checked. */
   frames: number;
   bodies: [name: string, triangles: string, files: string, notes: string][];
-  /** Those that are not allowed; `at`: the place in the 3D view, where it has one. */
+  /** Those that are not allowed, or between frames and allowed by --allow impact; `at`: the place in the 3D view, where it has one. */
   contacts: {place: string; words: string; at: number | null}[];
   /** Contacts that are in check.csv alone. */
   more: number;

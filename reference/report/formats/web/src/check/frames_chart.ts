@@ -26,7 +26,7 @@ export function drawPairs(
   steps: number[],
 ): Node {
   const half = columns(width, frames);
-  const most = Math.max(1, ...pairs.map(([, count]) => count));
+  const most = pairs.reduce((largest, [, count]) => Math.max(largest, count), 1);
   return Plot.plot({
     width,
     height: 220,

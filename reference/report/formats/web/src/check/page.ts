@@ -4,7 +4,7 @@ import {h, p, type Child} from "../dom";
 import {header} from "../sections/headline";
 import {viewPlace} from "../sections/view";
 import {square} from "../swatch";
-import {left, right, table} from "../table";
+import {left, right, table, withCode} from "../table";
 import {canHaveView, canShow, showInView} from "../view_slot";
 import type {CheckPage} from "./data";
 import {drawDepths, drawPairs} from "./frames_chart";
@@ -104,7 +104,7 @@ function view(page: CheckPage, bytes: ArrayBuffer | null): Child[] {
     reduce: () => "",
     chosen: page.view,
   };
-  return [page.view_note && p(page.view_note), viewPlace(context, bytes)];
+  return [page.view_note && p(...withCode(page.view_note)), viewPlace(context, bytes)];
 }
 
 export function showCheck(page: CheckPage, bytes: ArrayBuffer | null, place: HTMLElement): void {

@@ -59,7 +59,7 @@ export class Panel {
           kind,
           events,
           h("span", {class: `view-symbol view-${kind}`, "aria-hidden": "true"}, symbol),
-          chosen ? "not allowed" : undefined,
+          chosen ? "contacts" : undefined,
         ),
       );
     this.element = h(

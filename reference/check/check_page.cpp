@@ -17,8 +17,6 @@ using text::counted;
 
 constexpr const char* kScene = "check";
 
-bool has_contacts(const CheckedFrame& frame) { return !frame.here.event.is_null(); }
-
 /// What of a step or frame stands at one frame of the view.
 struct Shown {
   std::vector<std::size_t> frames;
@@ -26,11 +24,11 @@ struct Shown {
 };
 
 // Sentences of a step's contacts that are found, without what all of them say.
-std::vector<std::string> step_words(const CheckSummary& summary, const CheckedFrame& frame) {
+std::vector<std::string> step_words(const CheckedFrame& frame) {
   const std::string paths = std::string(", ") + kPaths;
   std::vector<std::string> out;
   for (std::size_t i = 0; i < frame.step.words.size(); ++i) {
-    if (!summary.found(frame.step.event.at("contacts").at(i))) continue;
+    if (!frame.step.found[i]) continue;
     std::string words = frame.step.words[i];
     if (words.ends_with(paths)) words.resize(words.size() - paths.size());
     if (frame.step.event.at("contacts").at(i).at("allowed").get<bool>()) words += ", allowed";
@@ -54,10 +52,10 @@ Shown marked(const CheckSummary& summary, std::vector<std::size_t> frames) {
     for (const CheckedFrame& frame : summary.listed()) {
       const std::size_t f = frame.frame;
       if (f == frames[i]) add(frame.here.pairs, "", frame.here.words);
-      if ((f == frames[i] || f == frames[i] + 1) && summary.found_in_step(frame))
+      if ((f == frames[i] || f == frames[i] + 1) && frame.found_in_step())
         add(frame.step.pairs,
             "from frame " + std::to_string(f - 1) + " to " + std::to_string(f) + ", ",
-            step_words(summary, frame));
+            step_words(frame));
     }
     constexpr std::size_t kMostWords = 5;
     if (words.size() > kMostWords) {
@@ -94,7 +92,7 @@ Json contact_rows(const CheckSummary& summary, const FrameWords& words,
                    {"at", at == shown.end() ? Json(nullptr) : Json(at - shown.begin())}});
   };
   for (const CheckedFrame& frame : summary.listed()) {
-    for (const std::string& sentence : step_words(summary, frame))
+    for (const std::string& sentence : step_words(frame))
       add(words.places(frame.frame - 1), frame.frame - 1, sentence);
     for (const std::string& sentence : frame.here.words)
       add(words.place(frame.frame), frame.frame, sentence);
@@ -111,8 +109,8 @@ struct Series {
 Series series_of(const CheckSummary& summary) {
   Series out;
   for (const CheckedFrame& frame : summary.listed()) {
-    if (summary.found_in_step(frame)) out.steps.push_back(frame.frame - 1);
-    if (!has_contacts(frame)) continue;
+    if (frame.found_in_step()) out.steps.push_back(frame.frame - 1);
+    if (frame.here.empty()) continue;
     std::size_t pairs = 0;
     double lower = 0.0, upper = 0.0;
     bool known = false, unknown = false;
@@ -151,8 +149,8 @@ std::vector<std::size_t> shown_frames(const CheckSummary& summary, std::size_t m
   std::set<std::size_t> out;
   for (const CheckedFrame& frame : summary.listed()) {
     std::set<std::size_t> place;
-    if (has_contacts(frame)) place.insert(frame.frame);
-    if (summary.found_in_step(frame)) place.insert({frame.frame - 1, frame.frame});
+    if (!frame.here.empty()) place.insert(frame.frame);
+    if (frame.found_in_step()) place.insert({frame.frame - 1, frame.frame});
     if (place.empty()) continue;
     if (places.empty() || frame.frame == summary.deepest()) out.insert(place.begin(), place.end());
     places.push_back(std::move(place));

@@ -23,10 +23,9 @@ bool starts_in_contact(const Json& contact) { return contact.at("start") == "in 
 void CheckSummary::add(CheckedFrame frame) {
   open_ = frame.open;
   totals_ = frame.totals;
-  if (!frame.here.event.is_null()) add_contacts(frame);
-  if (!frame.step.event.is_null()) add_step(frame);
-  if (!frame.here.event.is_null() || !frame.step.event.is_null())
-    listed_.push_back(std::move(frame));
+  if (!frame.here.empty()) add_contacts(frame);
+  if (!frame.step.empty()) add_step(frame);
+  if (!frame.here.empty() || !frame.step.empty()) listed_.push_back(std::move(frame));
 }
 
 void CheckSummary::add_contacts(const CheckedFrame& frame) {
@@ -52,21 +51,9 @@ void CheckSummary::add_step(const CheckedFrame& frame) {
   for (const Json& c : contacts)
     if (starts_in_contact(c)) passing_ += c.at("passing_pairs").get<std::size_t>();
   unseen_ += std::ranges::any_of(contacts, apart_at_both);
-  if (!found_in_step(frame)) return;
+  if (!frame.found_in_step()) return;
   ++found_steps_;
   if (!first_step_) first_step_ = frame.frame - 1;
-}
-
-bool CheckSummary::found_in_step(const CheckedFrame& frame) const {
-  return !frame.step.event.is_null() &&
-         std::ranges::any_of(frame.step.event.at("contacts"),
-                             [&](const Json& c) { return found(c); });
-}
-
-// Contact that a frame shows is judged by its depth there (Allowed::in_step).
-bool CheckSummary::found(const Json& contact) const {
-  const bool own = contact.at("bodies").at(0) == contact.at("bodies").at(1);
-  return !starts_in_contact(contact) && (!allowed_.depth || own || apart_at_both(contact));
 }
 
 const CheckedFrame* CheckSummary::first_bad() const {
@@ -114,7 +101,11 @@ std::vector<Topic> CheckSummary::findings() const {
     if (first_frame_)
       out.push_back({"First", words_.place(*first_frame_) + ", " + first->here.words.front()});
     else
-      out.push_back({"First", words_.places(*first_step_) + ", " + first_words(*first)});
+      out.push_back(
+          {"First",
+           words_.places(*first_step_) + ", " +
+               first->step.words[static_cast<std::size_t>(
+                   std::ranges::find(first->step.found, true) - first->step.found.begin())]});
   }
   if (deepest_)
     out.push_back({unknown_depth_ ? "Deepest of known depth" : "Deepest", deepest_text()});
@@ -122,14 +113,6 @@ std::vector<Topic> CheckSummary::findings() const {
     out.push_back({"Not judged", words_.name(body) + ": containment and depth in it, " + why});
   if (between_ && totals_.motion) out.push_back({"Largest motion in a step", motion_text()});
   return out;
-}
-
-// Of the first contact that is found.
-std::string CheckSummary::first_words(const CheckedFrame& frame) const {
-  const Json& contacts = frame.step.event.at("contacts");
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (!contacts[i].at("allowed").get<bool>()) return frame.step.words[i];
-  return frame.step.words.front();
 }
 
 std::string CheckSummary::text() const {

@@ -34,9 +34,6 @@ class CheckSummary {
   std::size_t bad_frames() const { return bad_frames_; }
   /// Steps with a contact that no frame's rule allows.
   std::size_t found_steps() const { return found_steps_; }
-  bool found_in_step(const CheckedFrame& frame) const;
-  /// True for such a contact of a step's event: one that is not judged by the frames' own rules.
-  bool found(const Json& contact) const;
   /// Those with contacts in them, or in the step that leads to them.
   const std::vector<CheckedFrame>& listed() const { return listed_; }
   /// The frame of the deepest contact of known depth above 0.
@@ -61,7 +58,6 @@ class CheckSummary {
   std::string steps_text() const;
   std::string deepest_text() const;
   std::string motion_text() const;
-  std::string first_words(const CheckedFrame& frame) const;
   std::string steps_lines() const;
   Json between_json() const;
 

@@ -19,14 +19,17 @@ std::vector<BodyPair> pairs_of(const Json& json) {
 }
 
 Json found_json(const FoundContacts& found) {
-  if (found.event.is_null()) return nullptr;
-  return {{"event", found.event}, {"words", found.words}, {"pairs", found.pairs}};
+  if (found.empty()) return nullptr;
+  return {{"event", found.event},
+          {"words", found.words},
+          {"found", found.found},
+          {"pairs", found.pairs}};
 }
 
 FoundContacts found_of(const Json& json) {
   if (json.is_null()) return {};
   return {json.at("event"), json.at("words").get<std::vector<std::string>>(),
-          json.at("pairs").get<FlatPairs>()};
+          json.at("found").get<std::vector<bool>>(), json.at("pairs").get<FlatPairs>()};
 }
 
 Json totals_json(const judge::StepTotals& totals) {

@@ -2,6 +2,7 @@
 // shown.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -22,8 +23,11 @@ using FlatPairs = std::vector<std::uint32_t>;
 struct FoundContacts {
   Json event;                      ///< as events have it (fixtures/README.md); null: none
   std::vector<std::string> words;  ///< a sentence per contact, those of `event` in their order
+  std::vector<bool> found;  ///< of a step, per contact: it is not judged by the frames (Allowed)
   FlatPairs pairs;  ///< of a step: triangles of the elements that are first to meet, where that is
                     ///< not judged by the frames
+
+  bool empty() const { return event.is_null(); }
 };
 
 struct CheckedFrame {
@@ -35,6 +39,9 @@ struct CheckedFrame {
   judge::FrameContacts contacts;
   judge::OpenBodies open;
   judge::StepTotals totals;
+
+  /// True if the step has a contact that the frames do not judge.
+  bool found_in_step() const { return std::ranges::find(step.found, true) != step.found.end(); }
 };
 
 Json to_json(const CheckedFrame& frame);

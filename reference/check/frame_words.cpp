@@ -103,20 +103,21 @@ FoundContacts FrameWords::of_step(std::size_t step,
   FoundContacts out;
   Json list = Json::array();
   for (const StepContact& c : contacts) {
+    out.found.push_back(!allowed_.in_step(c));
     Json first = nullptr;
     if (c.first) {
       first = {{"time", {{"lower", c.first->earliest}, {"upper", c.first->latest}}},
                {"elements", elements_json(*c.first)},
                {"place", {c.first->place.x(), c.first->place.y(), c.first->place.z()}},
                {"place_error", c.first->place_error}};
-      if (!allowed_.in_step(c))
+      if (out.found.back())
         out.pairs.insert(out.pairs.end(), {c.first->bodies[0], triangle_of(*c.first, 0),
                                            c.first->bodies[1], triangle_of(*c.first, 1)});
     }
     Json one = {{"bodies", {name(c.bodies.a), name(c.bodies.b)}},
                 {"start", words_of(c.start)},
                 {"end", words_of(c.end)},
-                {"allowed", allowed_.in_step(c) || allowed_.impact}};
+                {"allowed", !out.found.back() || allowed_.impact}};
     one["first"] = std::move(first);
     one["later_pairs"] = c.later;
     one["passing_pairs"] = c.passing;

@@ -28,7 +28,6 @@
 #include "reference/results/results_file.h"
 #include "reference/results/results_json.h"
 #include "reference/suite/kept_work.h"
-#include "reference/suite/machine.h"
 #include "reference/suite/out_lock.h"
 #include "reference/suite/run_identity.h"
 #include "reference/suite/run_plan.h"
@@ -219,9 +218,7 @@ std::string identity_of_ab(const std::vector<AbSide>& sides, const AbArguments& 
     lines += "\n";
   }
   lines += scenes_line(arguments, catalog) + "frames: " + std::to_string(arguments.frames) + "\n";
-  for (const auto& [member, value] : results::members_of(suite::describe_machine()))
-    lines += member + ": " + value + "\n";
-  return suite::identity_of(lines);
+  return suite::identity_of(lines + suite::machine_lines());
 }
 
 // Base head, head base, base head, ...: what slows the machine down for a while hits both. Every

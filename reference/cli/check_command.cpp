@@ -212,13 +212,13 @@ class Teller {
   /// After the frame was added to the summary.
   void frame(const CheckedFrame& frame) const {
     if (json_) {
-      if (!frame.step.event.is_null()) say(frame.step.event);
-      if (!frame.here.event.is_null()) say(frame.here.event);
+      if (!frame.step.empty()) say(frame.step.event);
+      if (!frame.here.empty()) say(frame.here.event);
       return;
     }
-    if (summary_.found_in_step(frame) && summary_.found_steps() <= check::kMostShown)
+    if (frame.found_in_step() && summary_.found_steps() <= check::kMostShown)
       contacts(words_.places(frame.frame - 1), frame.step.words);
-    if (!frame.here.event.is_null() && summary_.bad_frames() <= check::kMostShown)
+    if (!frame.here.empty() && summary_.bad_frames() <= check::kMostShown)
       contacts(words_.place(frame.frame), frame.here.words);
   }
 
@@ -258,9 +258,9 @@ Json start_event(const CheckArguments& arguments, const Subject& subject) {
 class Progress {
  public:
   Progress(const CheckArguments& arguments, const scene::Scene& scene, std::size_t first)
-      : display_(arguments.quiet || !kTerminal(), true),
+      : display_(arguments.quiet || !on_terminal(), true),
         events_(arguments.json_lines),
-        quiet_(arguments.quiet || kTerminal() || arguments.json_lines),
+        quiet_(arguments.quiet || on_terminal() || arguments.json_lines),
         frames_(scene.frames),
         first_(first),
         id_(scene.id) {}
@@ -289,7 +289,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr auto kInterval = std::chrono::seconds(10);
-  static bool kTerminal() { return isatty(STDERR_FILENO) != 0; }
+  static bool on_terminal() { return isatty(STDERR_FILENO) != 0; }
 
   ProgressDisplay display_;
   EventLines events_;
@@ -333,7 +333,7 @@ void keep(const std::vector<std::size_t>& frames, bool own, const scene::Scene& 
 void write_recordings(const std::vector<std::vector<std::size_t>>& wanted,
                       const CheckSummary& summary, const scene::Scene& scene, const fs::path& out) {
   const auto has_own = [](const CheckedFrame& frame) {
-    return !frame.step.event.is_null() &&
+    return !frame.step.empty() &&
            std::ranges::any_of(frame.step.event.at("contacts"), [](const Json& c) {
              return c.at("bodies").at(0) == c.at("bodies").at(1);
            });
@@ -347,7 +347,7 @@ void write_recordings(const std::vector<std::vector<std::size_t>>& wanted,
          scene, out);
   const CheckedFrame* first = summary.first_bad();
   if (first == nullptr) return;
-  if (!first->here.event.is_null() && summary.bad_frames() > 0)
+  if (!first->here.empty() && summary.bad_frames() > 0)
     keep({first->frame}, false, scene, out);
   else
     keep({first->frame - 1, first->frame}, has_own(*first), scene, out);
@@ -418,7 +418,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
     }
     log.add(frame);
     summary.add(frame);
-    if (!frame.here.event.is_null() || !frame.step.event.is_null()) progress.finish();
+    if (!frame.here.empty() || !frame.step.empty()) progress.finish();
     teller.frame(frame);
   }
   progress.finish();

@@ -14,7 +14,6 @@
 #include "reference/scene/catalogue.h"
 #include "reference/scene/simulation_spec.h"
 #include "reference/suite/kept_work.h"
-#include "reference/suite/machine.h"
 #include "reference/suite/out_lock.h"
 #include "reference/suite/run_identity.h"
 #include "reference/text/counted.h"
@@ -108,14 +107,11 @@ std::string identity_of_search(const TuneArguments& arguments, const OwnDetector
   std::string lines =
       "words: " + words + "\nscene: " +
       suite::content_of(request.scene_file, scene::load_any_scene(request.scene_file)) + "\n";
-  for (const plugin::Plugin& plugin : own.plugins) {
+  for (const plugin::Plugin& plugin : own.plugins)
     lines += plugin.declaration.id + ": " + plugin.content + "\n";
-  }
   for (const auto& [setting, value] : suite::named_settings(request.settings))
     lines += setting + ": " + value + "\n";
-  for (const auto& [member, value] : results::members_of(suite::describe_machine()))
-    lines += member + ": " + value + "\n";
-  return suite::identity_of(lines);
+  return suite::identity_of(lines + suite::machine_lines());
 }
 
 // A line that is overwritten on a terminal, one per step elsewhere.
@@ -155,8 +151,7 @@ int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog)
                                  text::counted(parts, "measured run");
                         });
   process::say_when_interrupted(
-      "contactcheck: interrupted; what was measured is kept: repeat the command with --resume to "
-      "go "
+      "contactcheck: interrupted; measured runs are kept: repeat the command with --resume to go "
       "on\n");
   if (arguments.resume && !arguments.quiet)
     std::fprintf(stderr, "resumed: %s\n", text::counted(kept.found(), "measured run").c_str());

@@ -20,8 +20,7 @@ constexpr const char* kHead = "kept.json";
 }  // namespace
 
 std::string identity_of(const std::string& lines) {
-  return "version: " CONTACTCHECK_VERSION "\nprogram: " +
-         hash_of_file(fs::read_symlink("/proc/self/exe")) + "\n" + lines;
+  return program_lines(fs::read_symlink("/proc/self/exe")) + lines;
 }
 
 void require_nothing_lost(const KeptWork& kept, const WorkToDo& work) {

@@ -54,13 +54,22 @@ std::string hash_of_file(const std::filesystem::path& file) {
   return results::hex(hash.digest());
 }
 
+std::string program_lines(const std::filesystem::path& program) {
+  return line("version", CONTACTCHECK_VERSION) + line("program", hash_of_file(program));
+}
+
+std::string machine_lines() {
+  std::string out;
+  for (const auto& [member, value] : results::members_of(describe_machine()))
+    out += line(member, value);
+  return out;
+}
+
 RunIdentity::RunIdentity(const SuiteRequest& request) {
-  common_ =
-      line("version", CONTACTCHECK_VERSION) + line("program", hash_of_file(request.executable));
+  common_ = program_lines(request.executable);
   for (const auto& [library, version] : adapters::library_versions())
     common_ += line(library, version);
-  for (const auto& [member, value] : results::members_of(describe_machine()))
-    common_ += line(member, value);
+  common_ += machine_lines();
   for (const auto& [setting, value] : named_settings(request.settings))
     common_ += line(setting, value);
 }

@@ -19,6 +19,11 @@ std::string content_of(const scene::SceneSource& source, const scene::Scene& sce
 /// The hash of a file's bytes, as hexadecimal text. @throws InputError when it cannot be read
 std::string hash_of_file(const std::filesystem::path& file);
 
+// Lines "NAME: VALUE" of identities.
+/// @throws InputError when the program's file cannot be read
+std::string program_lines(const std::filesystem::path& program);
+std::string machine_lines();
+
 /// The program (by the bytes of its file: a detector that was rebuilt is another one), the
 /// libraries, the machine, the settings, the detectors and the scene's content.
 class RunIdentity {

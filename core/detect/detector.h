@@ -97,6 +97,19 @@ class Detector {
   /// triangles that the library cannot see. One sentence each, the same words for the same fact in
   /// every frame, without numbers that change from frame to frame. Untimed.
   virtual std::vector<std::string> notes() { return {}; }
+
+  // For a detector whose work other processes do.
+
+  /// Halts them, and lets them go on, so that they compute nothing while nobody waits for them.
+  /// Every other call lets them go on, too. Untimed, round the calls of a frame.
+  virtual void pause() {}
+  virtual void resume() {}
+  /// Bytes of memory that they hold; none where there are no such processes, or where they are out
+  /// of sight. Untimed.
+  virtual std::optional<std::uint64_t> bytes_elsewhere() const { return std::nullopt; }
+  /// True when prepare() may be called again, with other bodies, after which earlier ones are not
+  /// looked at any more: to start such a process may take longer than its answers do.
+  virtual bool prepares_again() const { return false; }
 };
 
 inline void Detector::update_step(const Step&) {

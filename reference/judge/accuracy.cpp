@@ -201,13 +201,20 @@ class AccuracyPass {
     run_.prepare_ms =
         1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const long held = heap_growth(heap_before);
-    run_.prepared_bytes = run_.memory_bytes = static_cast<std::uint64_t>(std::max<long>(held, 0));
+    run_.prepared_bytes = run_.memory_bytes = bytes_with(held);
     called("prepare");
     run_.semantics = semantics_in(scene_.levels, detector_.semantics());
     if (run_.semantics.questions.empty())
       throw RefusedInput(
           "it answers about steps from frame to frame alone, and the scene has no level of them");
     return held;
+  }
+
+  // What it has on this heap, or where other processes do its work, what these have: buffers of
+  // pipes are all that is here.
+  std::uint64_t bytes_with(long held) const {
+    return detector_.bytes_elsewhere().value_or(
+        static_cast<std::uint64_t>(std::max<long>(held, 0)));
   }
 
   // Asks all questions about a frame, or about the step that begins there. Each list is then that
@@ -227,8 +234,7 @@ class AccuracyPass {
       if (own) {
         // The list of contacts is ours, and grows while it is filled.
         held_ += heap_growth(heap_before) - static_cast<long>(list_bytes(answer_) - list_before);
-        run_.memory_bytes =
-            std::max(run_.memory_bytes, static_cast<std::uint64_t>(std::max<long>(held_, 0)));
+        run_.memory_bytes = std::max(run_.memory_bytes, bytes_with(held_));
       }
       called("query");
       answer_.canonicalize();

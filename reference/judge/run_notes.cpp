@@ -29,8 +29,9 @@ void FrameNotes::add_frame(const std::vector<std::string>& sentences) {
 std::vector<std::string> FrameNotes::summary() const {
   std::vector<std::string> out;
   for (const Line& l : lines_)
-    out.push_back(l.sentence + " (in " + std::to_string(l.frames) + " of " +
-                  std::to_string(frames_) + " frames)");
+    out.push_back(l.frames == frames_ ? l.sentence
+                                      : l.sentence + " (in " + std::to_string(l.frames) + " of " +
+                                            std::to_string(frames_) + " frames)");
   return out;
 }
 

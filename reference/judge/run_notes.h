@@ -20,7 +20,8 @@ void note_environment(const process::FloatEnvironmentGuard& guard, const char* c
 class FrameNotes {
  public:
   void add_frame(const std::vector<std::string>& sentences);
-  /// "SENTENCE (in 3 of 60 frames)", in order of first appearance.
+  /// "SENTENCE (in 3 of 60 frames)", without the brackets where all frames have it, in order of
+  /// first appearance.
   std::vector<std::string> summary() const;
 
  private:

@@ -163,6 +163,12 @@ Declaration read_declaration(const text::JsonField& field) {
   }
   if (field.has("unisolated")) out.unisolated = field.at("unisolated").boolean();
   if (field.has("transient")) out.transient = field.at("transient").boolean();
+  if (field.has("prepares_again")) out.prepares_again = field.at("prepares_again").boolean();
+  if (field.has("warm_up"))
+    out.warm_up = static_cast<std::uint32_t>(field.at("warm_up").whole(0, kMostWarmUpFrames));
+  if (out.warm_up > 0 && !out.prepares_again)
+    field.at("warm_up").fail(
+        "needs \"prepares_again\": true, since the bodies of a scene follow those of the warm-up");
   if (field.has("impacts")) out.impacts = read_impact_claims(field.at("impacts"));
   // What answers queries of moving elements may answer nothing else.
   if (!out.impacts || field.has("semantics")) out.semantics = read_semantics(field.at("semantics"));
@@ -181,7 +187,9 @@ nlohmann::ordered_json to_json(const Declaration& d) {
               {"options", options},
               {"needs", needs},
               {"unisolated", d.unisolated},
-              {"transient", d.transient}};
+              {"transient", d.transient},
+              {"prepares_again", d.prepares_again},
+              {"warm_up", d.warm_up}};
   if (d.answers_frames()) out["semantics"] = semantics;
   if (d.impacts) out["impacts"] = impacts_json(*d.impacts);
   return out;

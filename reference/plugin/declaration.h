@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -48,6 +49,9 @@ struct ImpactClaims {
   ImpactTolerance tolerance;
 };
 
+/// Each is a call of a detector or two; all together are held to the limit of one call.
+inline constexpr std::uint32_t kMostWarmUpFrames = 10000;
+
 struct Declaration {
   std::string id, summary, version;
   std::vector<OptionInfo> options;
@@ -55,8 +59,11 @@ struct Declaration {
   Semantics semantics;
   std::optional<ImpactClaims> impacts;  ///< with the default options; none: no such queries
   bool needs_vertices = true, needs_nodes = true;
-  bool unisolated = false;  ///< it is asked in a process that cannot be ended with it
-  bool transient = false;   ///< no later run can reach it: it lives in the caller of this one
+  bool unisolated = false;      ///< it is asked in a process that cannot be ended with it
+  bool transient = false;       ///< no later run can reach it: it lives in the caller of this one
+  bool prepares_again = false;  ///< of a command: it may get other bodies while it runs
+  /// Of a command: frames of warm_up.h that it is asked about before the bodies of a scene.
+  std::uint32_t warm_up = 0;
 
   /// Frames, or steps from one to the next.
   bool answers_frames() const { return !semantics.questions.empty(); }

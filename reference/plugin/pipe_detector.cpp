@@ -1,11 +1,14 @@
 #include "reference/plugin/pipe_detector.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "core/types/check.h"
 #include "reference/plugin/pipe_messages.h"
 #include "reference/plugin/pipe_process.h"
+#include "reference/plugin/warm_up.h"
+#include "reference/text/counted.h"
 #include "reference/text/printable.h"
 
 namespace contactcheck::plugin {
@@ -43,6 +46,8 @@ class PipeObject {
     return {process_.receive_line(), name_, reply};
   }
   std::string receive(std::size_t bytes) { return process_.receive(bytes); }
+  PipeProcess& process() { return process_; }
+  const PipeProcess& process() const { return process_; }
 
   // One that has gone astray must not go on while others are judged.
   template <typename Work>
@@ -57,8 +62,12 @@ class PipeObject {
 
   std::vector<std::string> notes() {
     const std::string line = process_.first_error_line();
-    if (line.empty()) return {};
-    return {"wrote to standard error: \"" + line + "\""};
+    std::vector<std::string> out;
+    if (!line.empty()) out.push_back("wrote to standard error: \"" + line + "\"");
+    if (const std::uint32_t frames = declaration_.warm_up; frames > 0)
+      out.push_back("warmed up by " + text::counted(frames, "frame") +
+                    " of contactcheck's own before the scene's bodies");
+    return out;
   }
 
  private:
@@ -77,16 +86,12 @@ class PipeDetector : public Detector {
   const Semantics& semantics() const override { return object_.declaration().semantics; }
   bool needs_vertices() const override { return object_.declaration().needs_vertices; }
 
-  // A scale, and a margin with it, may be taken from the bodies: then it declares anew.
+  void expect(const std::vector<Question>& questions) override { expected_ = questions; }
+
   void prepare(const std::vector<Body>& bodies) override {
-    step_reader_.prepare(bodies);
-    object_.or_kill([&] {
-      const Reply ready = object_.ask(prepare_message(bodies, options_), "ready");
-      if (!ready.root().has("semantics")) return;
-      const Semantics now = read_semantics(ready.root().at("semantics"));
-      require_same_claims(object_.name(), semantics(), now);
-      object_.change_semantics(now);
-    });
+    if (!warm_) warm_up();
+    warm_ = true;
+    give_bodies(bodies);
   }
 
   void update(const Frame& frame) override {
@@ -116,9 +121,56 @@ class PipeDetector : public Detector {
   std::optional<double> reported_ns() const override { return reported_ns_; }
   std::vector<std::string> notes() override { return object_.notes(); }
 
+  void pause() override { object_.process().pause(); }
+  void resume() override { object_.process().resume(); }
+  // One that lives in the caller of this run works where it cannot be seen.
+  std::optional<std::uint64_t> bytes_elsewhere() const override {
+    if (object_.declaration().unisolated || object_.declaration().transient) return std::nullopt;
+    return object_.process().resident_bytes();
+  }
+  bool prepares_again() const override { return object_.declaration().prepares_again; }
+
  private:
+  // A scale, and a margin with it, may be taken from the bodies: then it declares anew.
+  void give_bodies(const std::vector<Body>& bodies) {
+    step_reader_.prepare(bodies);
+    object_.or_kill([&] {
+      const Reply ready = object_.ask(prepare_message(bodies, options_), "ready");
+      if (!ready.root().has("semantics")) return;
+      const Semantics now = read_semantics(ready.root().at("semantics"));
+      require_same_claims(object_.name(), semantics(), now);
+      object_.change_semantics(now);
+    });
+  }
+
+  // Its answers are read, so that one that cannot be is an error, and forgotten.
+  void warm_up() {
+    const std::uint32_t frames = object_.declaration().warm_up;
+    if (frames == 0) return;
+    const WarmUpScene scene;
+    give_bodies(scene.bodies());
+    const std::vector<Question>& questions = expected_.empty() ? semantics().questions : expected_;
+    ContactSet forgotten;
+    for (std::uint32_t i = 0; i < frames; ++i)
+      for (const bool steps : {false, true}) {
+        if (std::ranges::count(questions, steps, is_of_steps) == 0) continue;
+        if (steps) {
+          update_step(scene.step(i));
+        } else {
+          update(scene.frame(i));
+        }
+        for (const Question question : questions) {
+          if (is_of_steps(question) != steps) continue;
+          forgotten.clear();
+          query(question, forgotten);
+        }
+      }
+  }
+
   PipeObject object_;
   Options options_;
+  std::vector<Question> expected_;
+  bool warm_ = false;
   StepAnswerReader step_reader_;
   std::optional<double> reported_ns_;
 };

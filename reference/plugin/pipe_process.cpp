@@ -136,6 +136,7 @@ std::string traceback_place(const std::string& text) {
 [[noreturn]] void become(const char* command, int input, int output, int errors, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
+  setpgid(0, 0);
   process::adopt_orphans();  // they end with it, and not with another command
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
@@ -169,11 +170,13 @@ void PipeProcess::start(const std::string& command, int input, int output) {
   const pid_t pid = fork();
   if (pid == 0) become(text.c_str(), input, output, errors_.fd(), parent);
   if (pid < 0) throw InputError("cannot start \"" + command + "\": " + std::strerror(errno));
+  setpgid(pid, pid);  // whoever comes first; after exec the child has done it
   child_.started(pid);
 }
 
 PipeProcess::~PipeProcess() {
   close_input();
+  resume();
   if (!ends_within(kLeaveMilliseconds)) kill();
   child_.end_orphans();  // what it has left behind
   close(output_);
@@ -186,6 +189,16 @@ void PipeProcess::kill() {
   }
   reaped_ = true;
   child_.end_orphans();
+}
+
+// Until it is reaped, no other group can have its number.
+void PipeProcess::pause() {
+  if (!reaped_ && !paused_) paused_ = ::kill(-child_.pid(), SIGSTOP) == 0;
+}
+
+void PipeProcess::resume() {
+  if (!reaped_ && paused_) ::kill(-child_.pid(), SIGCONT);
+  paused_ = false;
 }
 
 void PipeProcess::close_input() {
@@ -204,6 +217,7 @@ bool PipeProcess::ends_within(int milliseconds) {
 }
 
 void PipeProcess::send(std::string_view bytes) {
+  resume();
   while (!bytes.empty()) {
     short ready = 0;
     if (wait_for(POLLOUT, &ready)) read_more();

@@ -20,10 +20,10 @@ struct PipeLimits {
   std::uint64_t errors = std::uint64_t{64} << 20;  ///< bytes on its standard error
 };
 
-/// Runs `/bin/sh -c COMMAND` in this process's group and working directory. It ends with the group
-/// and with this process. Its standard error is a file of its own. There is no
-/// limit of time or memory here: a worker that waits makes no progress, and its supervisor, who
-/// counts the memory of all that a worker has started, ends it.
+/// Runs `/bin/sh -c COMMAND` in this process's working directory, as the leader of a process group,
+/// so that the whole of it can be paused. It ends with this process. Its standard error is a file
+/// of its own. There is no limit of time or memory here: a worker that waits makes no progress, and
+/// its supervisor, who counts the memory of all that a worker has started, ends it.
 class PipeProcess {
  public:
   /// @throws InputError when there are no pipes or processes to be had
@@ -40,6 +40,13 @@ class PipeProcess {
   void send(std::string_view bytes);
   std::string receive_line();  ///< without its end
   std::string receive(std::size_t bytes);
+
+  /// Stops its process group, so that it computes nothing while nobody waits for it; send() lets it
+  /// go on, too. A process that has left the group is not stopped (timing::CpuBook sees it).
+  void pause();
+  void resume();
+  /// Resident memory of it and all that it has started.
+  std::uint64_t resident_bytes() const { return process::resident_bytes_of_tree(child_.pid()); }
 
   /// The first line that it wrote on its standard error, or "".
   std::string first_error_line() const;
@@ -60,7 +67,7 @@ class PipeProcess {
   process::Child child_;
   int input_ = -1, output_ = -1;  ///< of the command: written and read here
   int status_ = 0;
-  bool reaped_ = false;
+  bool reaped_ = false, paused_ = false;
   std::string buffer_;  ///< read and not yet asked for
   /// When the limits were last looked at: a command that answers at once must keep them too.
   mutable std::chrono::steady_clock::time_point checked_{};

@@ -56,6 +56,18 @@ std::vector<pid_t> process_tree(pid_t root) {
   return tree;
 }
 
+std::string descendant_outside_groups() {
+  std::vector<pid_t> groups = {getpgrp()};
+  for (const pid_t child : children_of_this_process()) groups.push_back(getpgid(child));
+  for (const pid_t process : process_tree(getpid())) {
+    const pid_t group = getpgid(process);
+    if (group < 0 || std::ranges::find(groups, group) != groups.end()) continue;
+    std::ifstream file("/proc/" + std::to_string(process) + "/comm");
+    if (std::string name; std::getline(file, name)) return name;
+  }
+  return "";
+}
+
 std::uint64_t resident_bytes_of_tree(pid_t root) {
   std::uint64_t sum = 0;
   for (const pid_t process : process_tree(root)) sum += resident_bytes(process);

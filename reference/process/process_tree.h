@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace contactcheck::process {
@@ -11,6 +12,10 @@ namespace contactcheck::process {
 /// `root` and its descendants, as far as the kernel knows (children of an ended process no longer
 /// count as its descendants).
 std::vector<pid_t> process_tree(pid_t root);
+
+/// The name of a descendant of this process that is neither in its process group nor in that of one
+/// of its children, so that no signal to these groups reaches it; "" where there is none.
+std::string descendant_outside_groups();
 
 /// The resident memory of a process and its descendants, bytes; shared pages count once for each.
 std::uint64_t resident_bytes_of_tree(pid_t root);

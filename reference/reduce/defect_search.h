@@ -33,7 +33,8 @@ class Probe {
  public:
   explicit Probe(ProbeSettings settings) : settings_(std::move(settings)) {}
 
-  /// What the detector, made anew, answers, judged at `levels` as `contactcheck run` judges it.
+  /// What the detector answers, made anew or prepared again, judged at `levels` as `contactcheck
+  /// run` judges it.
   /// @throws std::runtime_error when the suite's own code cannot judge the frame; Interrupted
   ProbeVerdict ask(const Snapshot& snapshot, const std::vector<Level>& levels);
   /// The next question is asked in a fresh process.

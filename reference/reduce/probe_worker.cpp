@@ -51,20 +51,23 @@ scene::Scene scene_of(const std::string& request) {
   return scene;
 }
 
-/// What the detector, made anew, answers. Errors are booked as a worker of a run books them
-/// (suite/worker_state.h).
+/// What the detector answers: one made anew, or `kept` of an earlier frame where it can be prepared
+/// again. Errors are booked as a worker of a run books them (suite/worker_state.h).
 ProbeVerdict verdict_on(judge::JudgingTools& tools, const DetectorCatalog& catalog,
-                        const DetectorSpec& spec, process::ProgressWriter& progress) {
+                        const DetectorSpec& spec, process::ProgressWriter& progress,
+                        std::unique_ptr<Detector>& kept) {
   ProbeVerdict out;
   const process::FloatEnvironmentGuard guard;
   try {
-    const std::unique_ptr<Detector> detector = catalog.make(spec);
+    // One that throws is not used again.
+    std::unique_ptr<Detector> detector = kept ? std::move(kept) : catalog.make(spec);
     results::Run run;
     judge::AccuracyOutcome accuracy = judge::run_accuracy(tools, 0, *detector, progress, run);
     out.levels = run.levels;
     out.not_judged = run.not_judged;
     out.missed_length = run.geometry.missed_length.value_or(0.0);
     out.disagreements = std::move(accuracy.disagreements);
+    if (detector->prepares_again()) kept = std::move(detector);
   } catch (const Unavailable& e) {
     out.status = results::Status::kAbsent;
     out.message = e.what();
@@ -101,13 +104,14 @@ int run_probe_worker(const std::string& detector, const DetectorCatalog& catalog
     process::Surroundings surroundings(true);
     process::SharedProgress page;
     process::ProgressWriter progress{&page};
+    std::unique_ptr<Detector> kept;
     while (const std::optional<std::string> request = channel.receive()) {
       const scene::Scene scene = scene_of(*request);
       const judge::JudgedScene judged = judge::judge_scene(scene, progress);
       if (!judged.refused.empty()) throw RefusedInput(judged.refused);
       judge::JudgingTools tools(judged);
       if (!channel.send("")) break;
-      const ProbeVerdict verdict = verdict_on(tools, catalog, spec, progress);
+      const ProbeVerdict verdict = verdict_on(tools, catalog, spec, progress, kept);
       surroundings.restore();
       if (!channel.send(to_text(verdict))) break;
     }

@@ -69,7 +69,8 @@ results::Run broken_row(const SceneAnswers& scene, std::uint32_t position) {
   run.recording = recording_of(scene);
   run.failed_frame = outcome.frame;
   run.message = place_of(scene.task.id, outcome) +
-                (outcome.detector ? "" : " in the suite's own code, after this detector had run");
+                (outcome.detector ? "" : " in the suite's own code, after this detector had run") +
+                (outcome.timed ? " (while timed)" : "");
   run.frames = scene.judged.scene.frames;
   run.contact_frames = scene.judged.scene.contact_frames;
   return run;

@@ -174,6 +174,7 @@ class SceneRun {
     if (!suspect || broken_.contains(*suspect)) throw_for_scene(outcome);
     show_last_words(task_.detectors[*suspect], outcome.error_text);
     broken_[*suspect] = outcome;
+    broken_[*suspect].timed = !job_.turns.empty();
     job_.skip.push_back(*suspect);
   }
 

@@ -23,6 +23,7 @@ struct WorkerOutcome {
   std::optional<std::uint32_t> last_detector;
   std::uint32_t frame = 0;
   process::Phase phase = process::Phase::kScene;
+  bool timed = false;      ///< it timed what had been judged
   std::string error_text;  ///< what a worker that is not done had on its standard error at the end
 };
 

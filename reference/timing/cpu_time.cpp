@@ -16,6 +16,7 @@
 
 #include "reference/process/process_tree.h"
 #include "reference/text/counted.h"
+#include "reference/text/printable.h"
 
 namespace contactcheck::timing {
 namespace {
@@ -110,7 +111,10 @@ double CallClock::stop() {
 CpuBook::Reading CpuBook::read(bool calls_next) const {
   Reading out;
   if (calls_next) out.at = Clock::now();
-  if (children_ && calls_next) out.children = of_children();
+  if (children_ && calls_next) {
+    out.children = of_children();
+    if (has_children()) out.stray = process::descendant_outside_groups();
+  }
   out.thread_first = nanoseconds_of(CLOCK_THREAD_CPUTIME_ID);
   out.process = nanoseconds_of(CLOCK_PROCESS_CPUTIME_ID);
   out.thread_last = nanoseconds_of(CLOCK_THREAD_CPUTIME_ID);
@@ -125,6 +129,7 @@ void CpuBook::before_call(const Reading& now) {
                       (now.thread_last - last_.thread_first);
     time_between_ += nanoseconds(now.at - last_.at);
   }
+  if (stray_.empty()) stray_ = now.stray;
   last_ = now;
 }
 
@@ -154,6 +159,10 @@ void CpuBook::settle(const std::function<void()>& still_here) {
 }
 
 std::string CpuBook::complaint() const {
+  if (!stray_.empty())
+    return "its process \"" + text::printable_line(stray_) +
+           "\" has left the process group of its command: it could work on while it is not called, "
+           "when the group is stopped";
   // For clocks that tick at different rates; a command tidies up behind its answer, and the pipe's
   // two ends work beside each other.
   const bool command = of_children_ > 0.0;

@@ -33,7 +33,9 @@ class CallClock {
 };
 
 /// Accounts one pass: the CPU time of the process in calls of the detector, and the CPU time that
-/// others than the calling thread use between calls. Nanoseconds.
+/// others than the calling thread use between calls. Nanoseconds. A command is paused between calls
+/// (Detector::pause), what it computes in the background lies within them; so a process that has
+/// left its group, which no pause reaches, is a complaint, too.
 ///
 /// Reading the clocks takes time too, and a shared machine may stop between two of them. So the
 /// calls' CPU time is compared with the time between the readings, which is never less for one
@@ -44,6 +46,7 @@ class CpuBook {
   struct Reading {
     Clock::time_point at;  ///< Before all others ahead of a call, after all others behind it.
     double thread_first = 0.0, process = 0.0, thread_last = 0.0, children = 0.0;
+    std::string stray = {};  ///< a process that no pause reaches
   };
 
   /// `threads`: that the detector may use. `children`: count the processes that this one has
@@ -62,8 +65,8 @@ class CpuBook {
   double after_call(const Reading& now);
 
   /// "" where all is well. A sentence where the detector has used more CPU time in its calls than
-  /// its threads can in that time, or has worked on between them: then the time of its calls is not
-  /// what it costs.
+  /// its threads can in that time, has worked on between them, or has a process that could: then
+  /// the time of its calls is not what it costs.
   std::string complaint() const;
 
  private:
@@ -72,6 +75,7 @@ class CpuBook {
   std::size_t threads_, calls_ = 0;
   bool children_;
   Reading last_;
+  std::string stray_;
   double in_calls_ = 0.0, of_children_ = 0.0, time_of_calls_ = 0.0;
   double between_calls_ = 0.0, time_between_ = 0.0;
 };

@@ -92,7 +92,9 @@ void run_lockstep(const scene::Scene& scene, Detector& driver, const LockstepSet
         runner.guarded([&] {
           progress.enter(runner.entry->position, state.steps, process::Phase::kUpdate);
           sweep.run();
+          runner.entry->detector->resume();
           run_step(state, *runner.driven, runner.entry->sums[repeat], progress);
+          runner.entry->detector->pause();
         });
         guard.check_and_restore();
       }

@@ -124,8 +124,10 @@ Pass time_pass(const scene::Scene& scene, const PassRequest& request, Detector& 
     contacts.clear();
     if (request.sweep != nullptr) request.sweep->run();
     cpu.before_call();
+    detector.resume();
     PhaseSample& sample =
         out.emplace_back(time_frame(request.asked.question, detector, input, contacts, progress));
+    detector.pause();
     sample.cpu = cpu.after_call();
     guard.check_and_restore();  // flush-to-zero would make the next one faster
     contacts.canonicalize();

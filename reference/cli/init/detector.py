@@ -20,7 +20,7 @@ for text in iter(sys.stdin.buffer.readline, b""):
     data = io.BytesIO(sys.stdin.buffer.read(line.get("bytes", 0)))
     if line["message"] == "hello":
         write({"message": "hello", "protocol": "contactcheck-pipe/1", "id": "mine", "needs": ["vertices"],
-               "semantics": {"levels": ["body"], "questions": ["body"]}})
+               "prepares_again": True, "semantics": {"levels": ["body"], "questions": ["body"]}})
     elif line["message"] == "prepare":
         bodies = line["bodies"]
         for body in bodies:

@@ -10,10 +10,11 @@ using testing::IsEmpty;
 
 TEST(FrameNotes, CountTheFramesOfEachSentence) {
   FrameNotes notes;
-  notes.add_frame({"late"});
-  notes.add_frame({});
-  notes.add_frame({"early", "late"});
-  EXPECT_THAT(notes.summary(), ElementsAre("late (in 2 of 3 frames)", "early (in 1 of 3 frames)"));
+  notes.add_frame({"late", "always"});
+  notes.add_frame({"always"});
+  notes.add_frame({"early", "late", "always"});
+  EXPECT_THAT(notes.summary(),
+              ElementsAre("late (in 2 of 3 frames)", "always", "early (in 1 of 3 frames)"));
 }
 
 TEST(FrameNotes, AreSilentWhenNothingIsSaid) {

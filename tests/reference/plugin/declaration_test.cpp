@@ -17,7 +17,7 @@ constexpr const char* kWhole = R"({
   "id": "mine", "summary": "finds all", "version": "2.1", "later": "unknown keys are passed over",
   "options": [{"name": "leaf", "default": "4", "min": 1, "max": 8, "integer": true, "help": "size"},
               {"name": "tree", "default": "box", "choices": ["box", "ball"]}],
-  "needs": ["nodes"],
+  "needs": ["nodes"], "prepares_again": true, "warm_up": 3,
   "semantics": {"levels": ["body", "near"], "informative": ["vertex"], "questions": ["body", "contacts"],
     "body": "solid", "touching": "open", "margin": 0.01, "precision": "single", "scale": 100,
     "depth_kind": "vertex-surface", "whole_cells": true, "means": "closer than 1 cm"}})";
@@ -47,6 +47,8 @@ TEST(Declaration, IsReadWhole) {
   EXPECT_THAT(d.options[1].choices, testing::ElementsAre("box", "ball"));
   EXPECT_FALSE(d.needs_vertices);
   EXPECT_TRUE(d.needs_nodes);
+  EXPECT_TRUE(d.prepares_again);
+  EXPECT_EQ(d.warm_up, 3u);
   const Semantics& s = d.semantics;
   EXPECT_THAT(s.levels, testing::ElementsAre(Level::kBody, Level::kNear));
   EXPECT_THAT(s.informative, testing::ElementsAre(Level::kVertex));
@@ -57,6 +59,25 @@ TEST(Declaration, IsReadWhole) {
   EXPECT_EQ(s.scale, 100.0);
   EXPECT_EQ(s.depth, DepthKind::kVertexSurface);
   EXPECT_EQ(s.means, "closer than 1 cm");
+}
+
+TEST(Declaration, WarmUpHasALimitAndNeedsToBePreparedAgain) {
+  const auto with = [](const std::string& keys) {
+    return R"({"id": "m", "semantics": {"levels": ["body"], "questions": ["body"]}, )" + keys + "}";
+  };
+  for (const std::uint32_t frames : {0u, kMostWarmUpFrames - 1, kMostWarmUpFrames})
+    EXPECT_EQ(
+        declaration_in(with("\"prepares_again\": true, \"warm_up\": " + std::to_string(frames)))
+            .warm_up,
+        frames);
+  EXPECT_THAT(test::sentence_of([&] {
+                declaration_in(with("\"prepares_again\": true, \"warm_up\": " +
+                                    std::to_string(kMostWarmUpFrames + 1)));
+              }),
+              HasSubstr("a whole number from 0 to 10000"));
+  EXPECT_THAT(test::sentence_of([&] { declaration_in(with("\"warm_up\": 1")); }),
+              HasSubstr("warm_up needs \"prepares_again\": true"));
+  EXPECT_FALSE(declaration_in(with("\"warm_up\": 0")).prepares_again);
 }
 
 TEST(Declaration, SurvivesBeingWritten) {

@@ -6,11 +6,16 @@ import os
 import struct
 import subprocess
 import sys
+import threading
 import time
 
 FAULT = sys.argv[1]
+if sys.argv[2:3] == ["--starts"]:  # a file that gets a line for each start
+    with open(sys.argv[3], "a", encoding="utf-8") as starts:
+        starts.write("started\n")
 OUT = sys.stdout.buffer
 LEAKED = []
+WARM = {"frames": 0, "triangles": 0}  # between the first prepare and the second
 HELLO = {
     "message": "hello",
     "protocol": "contactcheck-pipe/1",
@@ -47,6 +52,12 @@ def eat_memory():
 
 def eat_memory_in_a_child():
     subprocess.run([sys.executable, __file__, "only-eat"])
+
+
+def work_behind_the_answer():
+    end = time.perf_counter() + 0.03
+    while time.perf_counter() < end:
+        pass
 
 
 def work_in_a_child():
@@ -90,6 +101,12 @@ def hello():
         eat_memory()
     if FAULT == "nan-depth":
         line["semantics"] = DEPTHS
+    if FAULT in ("always-lies-again", "warms-up", "lies-when-kept"):
+        line["prepares_again"] = True
+    if FAULT == "warms-up":
+        line["warm_up"] = 40
+    if FAULT == "warms-up-once":
+        line["warm_up"] = 40
     if FAULT == "renamed":  # another name every time it is started
         line["id"] = "renamed-" + str(os.getpid())
     write(line)
@@ -133,8 +150,14 @@ def frame():
         write({"message": "done"})
 
 
-def ready():
+def ready(bodies):
     line = {"message": "ready"}
+    if FAULT == "leaves-its-group" and not LEAKED:
+        LEAKED.append(subprocess.Popen(["sleep", "300"], start_new_session=True))
+    if FAULT == "warms-up" and WARM["triangles"] > 0:
+        sys.stderr.write("%d frames of %d triangles\n" % (WARM["frames"], WARM["triangles"]))
+        sys.stderr.flush()
+    WARM["triangles"] = sum(body["triangles"] for body in bodies)
     if FAULT == "exact-later":
         line["semantics"] = dict(HELLO["semantics"], exact=True)
     if FAULT == "scale-later":
@@ -172,7 +195,7 @@ def query(question):
 def main():
     if FAULT == "only-eat":
         eat_memory()
-    index = 0
+    index = prepared = 0
     while True:
         text = sys.stdin.buffer.readline()
         if not text:
@@ -184,16 +207,22 @@ def main():
         if line["message"] == "hello":
             hello()
         elif line["message"] == "prepare":
-            ready()
+            prepared += 1
+            ready(line["bodies"])
         elif line["message"] == "frame":
             index = line["index"]
+            WARM["frames"] += 1
             if FAULT == "leaks":
                 LEAKED.append(b"x" * (1 << 24))
             if FAULT == "works-in-a-child":
                 work_in_a_child()
             frame() if index == 2 else write({"message": "done"})
-        elif FAULT == "always-lies":
+        elif (FAULT in ("always-lies", "always-lies-again")
+              or FAULT == "lies-when-kept" and (prepared > 1 or WARM["triangles"] > 4)):
             write({"message": "contacts", "triangles": 1}, PAIR)
+        elif FAULT == "works-behind-its-answer":
+            write({"message": "contacts"})
+            threading.Thread(target=work_behind_the_answer).start()
         elif index == 2:
             query(line["question"])
         else:

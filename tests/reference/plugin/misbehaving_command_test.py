@@ -20,6 +20,7 @@ from tiny_run import TinyRun, child_dies
     fault("built-in-id", "calls itself \"fcl-aabb\"", "another detector's name"),
     fault("unknown-level", "semantics.levels[0] is \"voxel\"", "one of body"),
     fault("no-semantics", "semantics is missing"),
+    fault("warms-up-once", "warm_up needs \"prepares_again\": true"),
     fault("endless-line", "a line of more than 1024 KiB"),
     fault("eats-memory-at-once", "more than 400 MiB (memory limit)", flags=("--memory-limit", "400")),
 ])
@@ -101,6 +102,36 @@ def test_work_of_a_child_during_a_call_is_cpu_time(tmp_path):
         assert times["frame"] >= 39
         assert times["cpu"] >= 30
         assert times["taken"] == 0, "the program waited for the command"
+
+
+# As a compiler in the background does: between its turns it is stopped, so that this lies within them.
+def test_work_behind_an_answer_waits_for_the_next_turn(tmp_path):
+    row = TinyRun(tmp_path, ["--detector-cmd", command("works-behind-its-answer")], []).row("misbehaving")
+    assert row["status"] == "ok", row["message"]
+
+
+# What is no longer in its group cannot be stopped.
+def test_process_that_leaves_the_group_is_an_error(tmp_path):
+    row = TinyRun(tmp_path, ["--detector-cmd", command("leaves-its-group")], []).row("misbehaving")
+    assert row["status"] == "error"
+    assert "its process \"sleep\" has left the process group of its command" in row["message"]
+    assert "(while timed)" in row["message"]
+
+
+def test_memory_is_that_of_its_processes(tmp_path):
+    row = TinyRun(tmp_path, ["--detector-cmd", command("leaks")]).row("misbehaving")
+    assert row["status"] == "ok", row["message"]
+    grown = row["memory_bytes"] - row["prepared_bytes"]
+    assert row["prepared_bytes"] > 1 << 20, "an interpreter"
+    assert 5 << 24 <= grown < 9 << 24, "16 MiB a frame, and five frames"
+
+
+def test_warm_up_is_on_bodies_of_its_own_before_those_of_the_scene(tmp_path):
+    row = TinyRun(tmp_path, ["--detector-cmd", command("warms-up")]).row("misbehaving")
+    assert row["status"] == "ok", row["message"]
+    notes = " ".join(row["notes"])
+    assert "wrote to standard error: \"40 frames of 896 triangles\"" in notes
+    assert "warmed up by 40 frames of contactcheck's own before the scene's bodies" in notes
 
 
 def test_scale_may_follow_from_the_bodies(tmp_path):

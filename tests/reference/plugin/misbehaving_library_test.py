@@ -111,8 +111,8 @@ def test_answers_that_differ_while_timed_are_an_error(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("name, message", [
-    ("aborts-in-its-second-pass", "scene tiny, frame 2, phase update: signal 6 (Aborted)"),
-    ("leaves-in-its-second-pass", "scene tiny, frame 2, phase update: exit code 0"),
+    ("aborts-in-its-second-pass", "scene tiny, frame 2, phase update: signal 6 (Aborted) (while timed)"),
+    ("leaves-in-its-second-pass", "scene tiny, frame 2, phase update: exit code 0 (while timed)"),
 ], ids=["abort", "exit"])
 def test_death_in_the_second_pass_leaves_others_their_times(name, message, tmp_path, monkeypatch):
     marks = tmp_path / "marks"
@@ -121,6 +121,7 @@ def test_death_in_the_second_pass_leaves_others_their_times(name, message, tmp_p
     run = run_beside_fcl(name, ["--processes", "3"], tmp_path)
     assert_only_its_row(run, f"misbehaving:fault={name}", [message])
     assert "time_ms" not in run.row(f"misbehaving:fault={name}")
+    assert "next:" not in run.outcome.out, "it was judged well: reduce would find nothing"
     assert run.row("fcl-aabb")["time_ms"]["passes"] == 3
     # Processes that judge, of the first pass (two) and of half the second.
     assert len(names_in(marks)) == 4

@@ -3,12 +3,19 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
+#include <string>
+#include <thread>
 
 #include "reference/text/shell_word.h"
 #include "tests/reference/process/is_dead.h"
+#include "tests/reference/scene/scratch.h"
 
 namespace contactcheck::plugin {
 namespace {
@@ -67,6 +74,52 @@ TEST(PipeProcess, LastWordsOfPythonSayWhere) {
 TEST(PipeProcess, SeesNoDescriptorsButItsThree) {
   PipeProcess process("ls /proc/self/fd | wc -l");
   EXPECT_EQ(std::atoi(process.receive_line().c_str()), 4) << "and the one that ls reads";
+}
+
+// 'T' of one that was stopped; 'R', 'S' or 'D' of one that was not.
+char state_of(const std::string& process) {
+  std::ifstream file("/proc/" + process + "/stat");
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  return text.substr(text.rfind(')') + 2, 1)[0];
+}
+
+bool becomes(const std::string& process, bool stopped) {
+  for (int i = 0; i < 1000; ++i) {
+    if ((state_of(process) == 'T') == stopped) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+TEST(PipeProcess, IsPausedWithAllOfItsGroup) {
+  PipeProcess process("echo $$; sleep 300 & echo $!; while read line; do echo $line; done");
+  const std::string shell = process.receive_line(), child = process.receive_line();
+  for (int i = 0; i < 3; ++i) {
+    process.pause();
+    process.pause();
+    EXPECT_TRUE(becomes(shell, true) && becomes(child, true));
+    if (i == 1) {
+      process.resume();
+      EXPECT_TRUE(becomes(shell, false) && becomes(child, false));
+    }
+    process.send("x\n");
+    EXPECT_EQ(process.receive_line(), "x");
+    EXPECT_TRUE(becomes(child, false));
+  }
+}
+
+// It must be able to leave by itself. Builtins alone: a shell that is stopped while it starts a
+// program waits for that (vfork), and is in another state.
+TEST(PipeProcess, EndsPausedAsOtherwise) {
+  const test::Scratch scratch;
+  const std::string left = (scratch.folder() / "left").string();
+  {
+    PipeProcess process("echo $$; while read line; do :; done; : >" + text::in_shell(left));
+    const std::string shell = process.receive_line();
+    process.pause();
+    ASSERT_TRUE(becomes(shell, true));
+  }
+  EXPECT_TRUE(std::filesystem::exists(left));
 }
 
 TEST(PipeProcess, EndsWithWhatItHasStarted) {

@@ -34,6 +34,24 @@ def test_case_of_a_command(tmp_path):
     assert_reduced(spurious_case(TinyRun(tmp_path, COMMAND)), *COMMAND, "--budget", "60")
 
 
+def test_command_that_prepares_again_is_started_once(tmp_path):
+    # For its declaration, for all candidates, and for the last answer, which is asked anew.
+    starts = tmp_path / "starts"
+    command = ["--detector-cmd", misbehaving.command("always-lies-again") + f" --starts {shlex.quote(str(starts))}"]
+    case = spurious_case(TinyRun(tmp_path, command))
+    starts.unlink()
+    assert_reduced(case, *command, "--budget", "60")
+    assert len(starts.read_text(encoding="utf-8").splitlines()) == 3
+
+
+def test_answer_that_depends_on_earlier_bodies_is_not_reduced(tmp_path):
+    command = ["--detector-cmd", misbehaving.command("lies-when-kept")]
+    case = spurious_case(TinyRun(tmp_path, command))
+    outcome = contactcheck("reduce", case, *command, "--budget", "60")
+    assert outcome.exit_code == 2
+    assert "depends on what ran before it in its process" in outcome.err
+
+
 @pytest.mark.parametrize("detector", [LIBRARY, COMMAND], ids=["library", "command"])
 def test_command_that_the_run_prints_reduces(detector, tmp_path):
     run = TinyRun(tmp_path, detector, ["--no-timing", "--detector", "fcl-aabb"])

@@ -12,6 +12,7 @@
 #include <limits>
 #include <thread>
 
+#include "reference/process/process_tree.h"
 #include "reference/timing/cpu_time.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
@@ -365,6 +366,41 @@ TEST(CpuBook, ComplainsOfWorkBetweenCallsAndAfterTheLast) {
   book.settle([] {});
   other.join();
   EXPECT_THAT(book.complaint(), testing::HasSubstr("while it was not called"));
+}
+
+// A child that leads a group, as a command does, and has a child of its own that stays in it or
+// not.
+TEST(CpuBook, ComplainsOfAProcessThatNoPauseReaches) {
+  for (const bool leaves : {false, true}) {
+    int ready[2];
+    ASSERT_EQ(pipe(ready), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      setpgid(0, 0);
+      if (fork() == 0) {
+        if (leaves) setsid();
+        write(ready[1], "x", 1);
+        sleep(300);
+        _exit(0);
+      }
+      sleep(300);
+      _exit(0);
+    }
+    char byte = 0;
+    ASSERT_EQ(read(ready[0], &byte, 1), 1);
+    CpuBook book(1, true);
+    book.before_call();
+    book.after_call();
+    process::kill_tree(child);
+    waitpid(child, nullptr, 0);
+    for (const int end : ready) close(end);
+    if (leaves) {
+      EXPECT_THAT(book.complaint(),
+                  testing::HasSubstr("has left the process group of its command"));
+    } else {
+      EXPECT_EQ(book.complaint(), "");
+    }
+  }
 }
 
 TEST(CpuBook, CountsProcessesThatWereStarted) {

@@ -186,7 +186,7 @@ std::string check_page(const scene::Scene& scene, const FrameWords& words,
   Json rows = contact_rows(summary, words, view.frames, more);
   Series series = series_of(summary);
   Json findings = Json::array(), names = Json::array();
-  for (const Topic& topic : summary.findings())
+  for (const report::HeadlineFinding& topic : summary.findings())
     findings.push_back({{"topic", topic.topic}, {"sentence", topic.sentence}});
   for (const std::size_t frame : view.frames) names.push_back(words.place(frame));
   const std::string note = all == 0        ? ""

@@ -95,8 +95,8 @@ std::string CheckSummary::title() const {
   return (bad_frames_ > 0 ? frames_text() + ", and " : "") + steps_text() + ", " + kPaths;
 }
 
-std::vector<Topic> CheckSummary::findings() const {
-  std::vector<Topic> out;
+std::vector<report::HeadlineFinding> CheckSummary::findings() const {
+  std::vector<report::HeadlineFinding> out;
   if (const CheckedFrame* first = first_bad()) {
     if (first_frame_)
       out.push_back({"First", words_.place(*first_frame_) + ", " + first->here.words.front()});

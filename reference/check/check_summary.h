@@ -8,17 +8,13 @@
 
 #include "reference/check/checked_frame.h"
 #include "reference/check/frame_words.h"
+#include "reference/report/tables/headline.h"
 #include "reference/scene/scene.h"
 
 namespace contactcheck::check {
 
 /// The most frames, and the most steps, that a terminal shows.
 inline constexpr std::size_t kMostShown = 10;
-
-/// A sentence that heads a page, and what it is about.
-struct Topic {
-  std::string topic, sentence;
-};
 
 class CheckSummary {
  public:
@@ -44,7 +40,7 @@ class CheckSummary {
 
   /// "3 of 60 frames have a contact that is not allowed"
   std::string title() const;
-  std::vector<Topic> findings() const;
+  std::vector<report::HeadlineFinding> findings() const;
   /// The lines behind what was printed frame by frame.
   std::string text() const;
   /// The event `end`, without `out` and exit code.

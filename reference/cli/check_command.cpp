@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/deform/atomic_file.h"
-#include "core/deform/recording.h"
 #include "core/types/check.h"
 #include "core/types/hash.h"
 #include "reference/check/check_files.h"
@@ -16,6 +15,7 @@
 #include "reference/check/check_page.h"
 #include "reference/check/check_summary.h"
 #include "reference/check/frame_words.h"
+#include "reference/check/kept_recordings.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/event_lines.h"
@@ -33,7 +33,6 @@
 #include "reference/text/file_text.h"
 #include "reference/text/lists.h"
 #include "reference/text/shell_word.h"
-#include "reference/text/words.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -299,60 +298,6 @@ class Progress {
   Clock::time_point start_ = Clock::now(), said_ = start_;
 };
 
-/// "17" or "36-37": the frame, or the two of a step.
-std::vector<std::size_t> kept_frames(const std::string& word, std::size_t frames) {
-  const std::size_t dash = word.find('-');
-  const auto first = text::whole_number<std::size_t>(word.substr(0, dash));
-  const auto last =
-      dash == std::string::npos ? first : text::whole_number<std::size_t>(word.substr(dash + 1));
-  if (!first || !last || *last >= frames || *last - *first > 1)
-    throw InputError("--keep " + text::in_quotes(word) + " is neither a frame, from 0 to " +
-                     std::to_string(frames - 1) + ", nor two that follow, as 3-4");
-  return *first == *last ? std::vector{*first} : std::vector{*first, *last};
-}
-
-// A recording to judge detectors by. `own`: the step has contact within a body.
-void keep(const std::vector<std::size_t>& frames, bool own, const scene::Scene& scene,
-          const fs::path& out) {
-  Recording recording;
-  recording.scene = frames.size() == 1
-                        ? "frame-" + std::to_string(frames[0])
-                        : "frames-" + std::to_string(frames[0]) + "-" + std::to_string(frames[1]);
-  recording.bodies = scene.bodies;
-  recording.time_step = scene.time_step;
-  recording.levels = scene.levels;
-  const bool others = std::ranges::any_of(scene.levels, [](Level l) { return !is_self(l); });
-  for (const Level level : kLevels)
-    if (frames.size() > 1 && is_impact(level) && (is_self_impact(level) ? own : others))
-      recording.levels.push_back(level);
-  for (const std::size_t frame : frames) recording.frames.push_back(scene.nodes_of_frame(frame));
-  write_recording(out / (recording.scene + ".ccr"), recording);
-}
-
-// Those that were asked for, and the first that is not allowed.
-void write_recordings(const std::vector<std::vector<std::size_t>>& wanted,
-                      const CheckSummary& summary, const scene::Scene& scene, const fs::path& out) {
-  const auto has_own = [](const CheckedFrame& frame) {
-    return !frame.step.empty() &&
-           std::ranges::any_of(frame.step.event.at("contacts"), [](const Json& c) {
-             return c.at("bodies").at(0) == c.at("bodies").at(1);
-           });
-  };
-  for (const std::vector<std::size_t>& frames : wanted)
-    keep(frames,
-         std::ranges::any_of(summary.listed(),
-                             [&](const CheckedFrame& frame) {
-                               return frame.frame == frames.back() && has_own(frame);
-                             }),
-         scene, out);
-  const CheckedFrame* first = summary.first_bad();
-  if (first == nullptr) return;
-  if (!first->here.empty() && summary.bad_frames() > 0)
-    keep({first->frame}, false, scene, out);
-  else
-    keep({first->frame - 1, first->frame}, has_own(*first), scene, out);
-}
-
 }  // namespace
 
 int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog) {
@@ -365,7 +310,8 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   const Subject subject = subject_of(arguments, levels);
   const scene::Scene& scene = subject.scene;
   std::vector<std::vector<std::size_t>> kept;
-  for (const std::string& word : arguments.keep) kept.push_back(kept_frames(word, scene.frames));
+  for (const std::string& word : arguments.keep)
+    kept.push_back(check::kept_frames(word, scene.frames));
   check_out(arguments.out);
   const suite::OutLock lock(arguments.out);
 
@@ -430,7 +376,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
                                 .dump(1, ' ', false, Json::error_handler_t::replace) +
                             "\n");
   // What follows reads frames once more.
-  write_recordings(kept, summary, scene, arguments.out);
+  check::write_recordings(kept, summary, scene, arguments.out);
   const fs::path page = arguments.out / "check.html";
   if (report::has_html_report())
     write_file_atomically(page,

@@ -16,7 +16,8 @@ OptionInfo isa_option() {
   for (const char* other : {"AVX3", "AVX2", "SSE4", "NEON"})
     if (std::find(choices.begin(), choices.end(), other) == choices.end())
       choices.emplace_back(other);
-  return choice_option("isa", "best", std::move(choices), "instruction set of the inner loops");
+  return choice_option("isa", "best", std::move(choices),
+                       "instruction set of the inner loops (AVX3: AVX-512)");
 }
 
 OptionInfo threads_option() {

@@ -48,7 +48,7 @@ void add_queries(CommandLine& line) {
   queries->footer(
       "Early and late: of the time of contact, as fractions of the step. Near: no contact, but\n"
       "within the detector's own tolerance. A detector in single precision is judged twice: on\n"
-      "the doubles, and on what it was fed. \"ok\" in a row of a family: no error, and times "
+      "the doubles, and on what it was given. \"ok\" in a row of a family: no error, and times "
       "right\n"
       "within 1e-6.\n"
       "Examples:\n"

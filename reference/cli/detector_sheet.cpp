@@ -64,7 +64,7 @@ std::string contact_text(const Semantics& s) {
 std::string numbers_text(const Semantics& s) {
   std::string text = std::string(name_of(s.precision)) + " precision";
   if (s.local_origin) text += " about a local origin";
-  if (s.scale != 1.0) text += ", fed at scale " + number_text(s.scale);
+  if (s.scale != 1.0) text += ", given at scale " + number_text(s.scale);
   return text;
 }
 

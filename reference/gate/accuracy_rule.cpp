@@ -32,7 +32,7 @@ Reading read_level(const Rule& rule, const results::Run& row) {
   const std::optional<Level> level = level_of(rule, row);
   if (!level) return without("no level that the detector claims was judged");
   if (rule.rounded && row.levels_rounded.empty())
-    return without("the detector is fed doubles: nothing is rounded");
+    return without("the detector is given doubles: nothing is rounded");
   const std::string measure = rule.measure->name, name = name_of(*level);
   const results::Levels& levels = rule.rounded ? row.levels_rounded : row.levels;
   const auto found = levels.find(*level);

@@ -88,7 +88,7 @@ Row row_of(const DetectorScore& d, bool near) {
 }
 
 Row fed_row(const ImpactScore& score, bool near) {
-  Row row = {fmt::format("  as fed ({})", text::counted(score.truth, "contact")),
+  Row row = {fmt::format("  as given ({})", text::counted(score.truth, "contact")),
              whole(score.missed), whole(score.spurious)};
   if (near) row.push_back(near_text(score));
   return row;

@@ -8,6 +8,7 @@
 
 #include "reference/report/formats/markdown.h"
 #include "reference/report/tables/format.h"
+#include "reference/report/tables/origin.h"
 #include "reference/reproduce/paper_report.h"
 #include "reference/reproduce/reproduction.h"
 #include "reference/text/lists.h"
@@ -232,8 +233,9 @@ std::string introduction(const Json& reproduction) {
              "# The paper's tables beside ours\n\n- command: `{}`\n- machine: {}, {} cores, {}, "
              "{}\n- contactcheck {}\n\nReadings of the method:\n\n",
              text(reproduction.at("command")), text(machine.at("cpu")),
-             report::format_count(whole(machine.at("cores"))), text(machine.at("isa")),
-             text(machine.at("os")), text(reproduction.at("version"))) +
+             report::format_count(whole(machine.at("cores"))),
+             report::instruction_set(text(machine.at("isa"))), text(machine.at("os")),
+             text(reproduction.at("version"))) +
          markdown_list(reading_lines()) +
          "MSS is the deformation with gravity and ground; CELL maps every vertex and updates the "
          "detector's boxes and spheres. The paper's milliseconds are of phones of 2012: only "

@@ -195,6 +195,12 @@ std::string range_in_words(const results::ScaleRange& range, const results::Scen
                      results::outside(range, scale) ? ": outside" : "");
 }
 
+// Whether no configuration without errors can be cheaper: only other limits could have kept it out.
+bool cheapest_without_errors(const Measurement& chosen, const Limits& limits) {
+  return chosen.missed == 0 && chosen.spurious == 0 && !limits.hover && !limits.late_frames &&
+         !limits.deviation;
+}
+
 std::string verdict(const Tuning& tuning, const TuningRequest& request, std::size_t most_named) {
   if (!tuning.chosen)
     return tuning.confirmed.empty()
@@ -204,11 +210,14 @@ std::string verdict(const Tuning& tuning, const TuningRequest& request, std::siz
   const Tried& chosen = tuning.confirmed[*tuning.chosen];
   const TuneCandidate& candidate = tuning.candidates[chosen.candidate];
   const Cost cost = chosen.measurement.cost();
-  std::string text =
-      fmt::format("Chosen: {}{}, {:.3g} ms a {} ({}) on {} held-out frames.\n", candidate.detector,
-                  model_in_words(candidate), cost.ms, tuning.varies_deformers() ? "step" : "frame",
-                  interval_of(cost), tuning.held_out_frames) +
-      as_cheap_in_words(tuning, most_named);
+  std::string text = fmt::format("{}: {}{}, {:.3g} ms a {} ({}) on {} held-out frames.\n",
+                                 cheapest_without_errors(chosen.measurement, request.limits)
+                                     ? "Cheapest without errors"
+                                     : "Chosen",
+                                 candidate.detector, model_in_words(candidate), cost.ms,
+                                 tuning.varies_deformers() ? "step" : "frame", interval_of(cost),
+                                 tuning.held_out_frames) +
+                     as_cheap_in_words(tuning, most_named);
   if (const auto& scale = chosen.measurement.scale)
     for (const results::ScaleRange& range : chosen.measurement.ranges)
       text += range_in_words(range, *scale);

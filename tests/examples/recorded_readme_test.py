@@ -39,7 +39,7 @@ class Reader:
     def run(self, name, text=None, detectors=()):
         """Results, and what was printed. The command is the page's where the scene is."""
         (self.folder / name).write_text(text or self.scene(name), encoding="utf-8")
-        command = f"build/release/contactcheck run {name}"
+        command = f"contactcheck run {name}"
         assert text or f"\n    {command}\n" in self.text, f"the page does not say: {command}"
         options = ["--no-timing", *(f"--detector {name}" for name in detectors)]
         printed = self.call(" ".join([command, *options]))
@@ -115,7 +115,7 @@ def check_what_changes_the_fit(reader, error):
 
 
 def check_exported_frames(reader):
-    commands = reader.in_code("build/release/contactcheck export [^`]*")
+    commands = reader.in_code("contactcheck export [^`]*")
     frames = reader.in_code(r'"frames": "out/export/[^`]*')
     assert len(commands) == 1 and len(frames) == 2, (commands, frames)
     reader.call(commands[0])

@@ -32,8 +32,9 @@ std::string line_of(const std::vector<std::string>& cells) {
 
 }  // namespace
 
-std::string markdown_of(const TitledTable& table) {
+std::string markdown_of(TitledTable table) {
   if (table.rows.empty()) return "";
+  leave_out_untimed(table);
   std::vector<std::string> titles;
   std::string rule = "|";
   for (const Column& c : table.columns) {
@@ -62,12 +63,12 @@ std::string below_title(TitledTable table) {
   if (!table.text.empty()) table.text += "\n\n";
   table.text += table.title + ":";
   table.title.clear();
-  return markdown_of(table);
+  return markdown_of(std::move(table));
 }
 
 std::string untitled(TitledTable table) {
   table.title.clear();
-  return markdown_of(table);
+  return markdown_of(std::move(table));
 }
 
 std::string markdown_of(const Paragraph& paragraph) { return paragraph.text + "\n\n"; }
@@ -109,9 +110,10 @@ std::string scene_section(const results::Index& index, const results::Scene& sce
   return out;
 }
 
-std::string legend() {
+std::string legend(const results::Results& results) {
   std::string out = "## How to read the result table\n\n";
-  for (const Column& c : result_columns()) out += fmt::format("- **{}**: {}\n", c.title, c.meaning);
+  for (const Column& c : result_columns(results))
+    out += fmt::format("- **{}**: {}\n", c.title, c.meaning);
   return out;
 }
 
@@ -129,7 +131,7 @@ std::string markdown_report(const results::Index& index) {
     for (const results::Scene* scene : shown_scenes(index.results()))
       if (!scene->family) out += scene_section(index, *scene);
   }
-  return out + legend();
+  return out + legend(index.results());
 }
 
 std::map<std::string, std::string> report_files(const results::Results& results) {

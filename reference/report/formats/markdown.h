@@ -11,7 +11,7 @@ namespace contactcheck::report {
 
 /// The title as a heading of level 3, the text, the table and an empty line; empty without rows.
 /// Cells are escaped, so that they cannot end their column or line.
-std::string markdown_of(const TitledTable& table);
+std::string markdown_of(TitledTable table);
 
 /// The Markdown report: origin and machine, every section, for each scene its bodies, result table,
 /// losses per stage and disagreements, and an explanation of the columns.

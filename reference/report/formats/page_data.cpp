@@ -52,7 +52,8 @@ Json columns_json(const std::vector<Column>& columns) {
   return out;
 }
 
-Json to_json(const TitledTable& table) {
+Json to_json(TitledTable table) {
+  leave_out_untimed(table);
   Json out = {{"title", table.title},
               {"text", table.text},
               {"columns", columns_json(table.columns)},
@@ -389,7 +390,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"title", headline.title},
               {"findings", std::move(findings)},
               {"run", fmt::format("`{}` on {}, {} cores, {}.", results.command, machine.cpu,
-                                  machine.cores, machine.isa)},
+                                  machine.cores, instruction_set(machine.isa))},
               {"parts", part_sentences(results)},
               {"out", text::in_shell(results::out_folder(results))},
               {"detectors", index.detectors()},
@@ -403,7 +404,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"references", results::kReferences},
               {"sections", sections_json(index, pictures)},
               {"levels", levels_json(index, levels)},
-              {"result_columns", columns_json(result_columns())},
+              {"result_columns", columns_json(result_columns(results))},
               {"choices", std::move(words)},
               {"stages", stages_json(index, choices)},
               {"times", times_json(index, choices)},

@@ -67,12 +67,6 @@ std::string line_text(const std::vector<Column>& columns, const Line& line,
   return out + "\n";
 }
 
-void erase_column(std::size_t i, TitledTable& of) {
-  of.columns.erase(of.columns.begin() + static_cast<std::ptrdiff_t>(i));
-  for (Line& line : of.rows)
-    if (!is_message(line)) line.erase(line.begin() + static_cast<std::ptrdiff_t>(i));
-}
-
 bool has_value(const TitledTable& of, std::size_t column) {
   return std::any_of(of.rows.begin(), of.rows.end(),
                      [&](const Line& line) { return !is_message(line) && line[column] != "-"; });
@@ -84,16 +78,25 @@ std::size_t width_of(const TitledTable& of) {
   return width;
 }
 
+// Times of different questions do not compare: the column that tells them apart is then needed.
+void keep_if_different_questions(TitledTable& of) {
+  for (std::size_t i = 0; i < of.columns.size(); ++i) {
+    if (of.columns[i].title != "question") continue;
+    std::set<std::string> words;
+    for (const Line& line : of.rows)
+      if (!is_message(line)) words.insert(line[i]);
+    if (words.size() > 1) of.columns[i].spare = 0;
+  }
+}
+
 // Leaves out what has no value, and what the widest line has no room for.
 void fit(TitledTable& of) {
+  leave_out_untimed(of);
+  keep_if_different_questions(of);
   const bool any_row =
       std::any_of(of.rows.begin(), of.rows.end(), [](const Line& l) { return !is_message(l); });
   for (std::size_t i = of.columns.size(); any_row && i-- > 0;)
     if (!has_value(of, i)) erase_column(i, of);
-  const bool timed = std::any_of(of.columns.begin(), of.columns.end(),
-                                 [](const Column& column) { return column.role == Role::kTime; });
-  for (std::size_t i = of.columns.size(); !timed && i-- > 0;)
-    if (of.columns[i].role == Role::kOfTimes) erase_column(i, of);
   while (width_of(of) > kWidest) {
     const auto most = std::ranges::max_element(of.columns, {}, &Column::spare);
     if (most->spare == 0) break;

@@ -11,6 +11,7 @@
 #include "reference/report/pictures/svg.h"
 #include "reference/report/tables/detector_group.h"
 #include "reference/report/tables/format.h"
+#include "reference/report/tables/origin.h"
 
 namespace contactcheck::report {
 namespace {
@@ -212,7 +213,7 @@ std::string speed_error_plot(const SpeedError& chart, const std::string& machine
 
 std::string speed_error_picture(const results::Index& index) {
   const results::Machine& machine = index.results().machine;
-  return speed_error_plot(speed_error(index), machine.cpu + ", " + machine.isa);
+  return speed_error_plot(speed_error(index), machine.cpu + ", " + instruction_set(machine.isa));
 }
 
 }  // namespace contactcheck::report

@@ -58,16 +58,18 @@ TitledTable hover_claim(const Index& index) {
 TitledTable speed_claim(const Index& index, const char* detector, Question question, Level level) {
   TitledTable out{
       fmt::format("{} against FCL and Embree, question `{}`", detector, name_of(question)),
-      fmt::format("Errors are recall / spurious rate at level `{}`; a speed-up is the "
-                  "reference's time divided by this detector's, in playback.",
-                  name_of(level)),
+      fmt::format("Errors are recall / spurious rate at level `{}`{}.", name_of(level),
+                  index.results().timing ? "; a speed-up is the reference's time divided by this "
+                                           "detector's, in playback"
+                                         : ""),
       {{"scene", true, ""}, {"errors", false, ""}},
       {}};
   for (const std::string reference : results::kReferences) {
     out.columns.push_back({"errors of " + reference, false, ""});
-    out.columns.push_back({"speed-up over " + reference, false, ""});
+    out.columns.push_back(
+        {.title = "speed-up over " + reference, .left = false, .role = Role::kTime});
   }
-  out.columns.push_back({"passes", false, ""});
+  out.columns.push_back({.title = "passes", .left = false, .role = Role::kOfTimes});
   std::set<std::size_t> all_passes;
   for (const results::Scene* scene : shown_scenes(index.results())) {
     const Run* run = index.ok_run(scene->id, detector);

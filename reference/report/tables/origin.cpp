@@ -11,13 +11,17 @@
 
 namespace contactcheck::report {
 
+std::string instruction_set(const std::string& isa) {
+  return isa.starts_with("AVX3") ? "AVX-512" : isa;
+}
+
 std::vector<std::string> machine_lines(const results::Results& results) {
   const results::Machine& m = results.machine;
   const std::string libraries =
       text::joined(results.libraries, [](const auto& one) { return one.first + " " + one.second; });
   std::vector<std::string> out = {
       fmt::format("command: `{}`", results.command),
-      fmt::format("machine: {}, {} cores, {}, {}", m.cpu, m.cores, m.isa, m.os),
+      fmt::format("machine: {}, {} cores, {}, {}", m.cpu, m.cores, instruction_set(m.isa), m.os),
       fmt::format("built with {}, {}", m.compiler, m.build), "libraries: " + libraries,
       fmt::format("contactcheck {}, schema {}", results.version, results::kSchema)};
   for (const std::string& line : {timing_line(results), steadiness_line(results)})

@@ -8,6 +8,10 @@
 
 namespace contactcheck::report {
 
+/// results::Machine::isa as readers know it: "AVX-512" for "AVX3", which is Highway's name and that
+/// of the option `isa`.
+std::string instruction_set(const std::string& isa);
+
 /// Command, machine, compiler, libraries, version and timing settings, one line each; `code` is in
 /// backticks.
 std::vector<std::string> machine_lines(const results::Results& results);

@@ -93,13 +93,23 @@ const std::vector<Column>& result_columns() {
         {.title = "passes",
          .left = false,
          .meaning = "timed passes through the frames, each in a fresh process",
+         .role = Role::kOfTimes,
          .spare = 8}};
     for (const std::string reference : results::kReferences)
       all.push_back(reference_column(
-          reference, "time of " + reference + " / time of this detector, playback"));
+          reference, "time of " + reference + " / time of this detector, same question, playback"));
     return all;
   }();
   return columns;
+}
+
+std::vector<Column> result_columns(const results::Results& results) {
+  std::vector<Column> out = result_columns();
+  if (!results.timing)
+    std::erase_if(out, [](const Column& column) {
+      return column.role == Role::kTime || column.role == Role::kOfTimes;
+    });
+  return out;
 }
 
 std::vector<std::string> result_cells(const Run& run) {

@@ -16,6 +16,8 @@ Column reference_column(const std::string& reference, const std::string& meaning
 
 /// Columns of the result table, in order.
 const std::vector<Column>& result_columns();
+/// Those that are shown: without times none of these.
+std::vector<Column> result_columns(const results::Results& results);
 
 /// The cells of one run, one per column. Runs that are not `ok` show their status and message.
 std::vector<std::string> result_cells(const results::Run& run);

@@ -162,7 +162,7 @@ TitledTable levels_table(const RunList& runs) {
                   {}};
   for (const Run* run : runs) {
     add_levels(*run, run->levels, "doubles", out);
-    add_levels(*run, run->levels_rounded, "values fed", out);
+    add_levels(*run, run->levels_rounded, "rounded values", out);
   }
   return out;
 }

@@ -94,8 +94,9 @@ Sums& line_of(const Run& run, std::vector<Sums>& all) {
 TitledTable summary_table(const results::Results& results) {
   TitledTable out{
       "",
-      "Sums over scenes; speed-ups are the smallest and the largest of any scene, in "
-      "playback.",
+      results.timing ? "Sums over scenes; speed-ups are the smallest and the largest of any scene, "
+                       "in playback."
+                     : "Sums over scenes.",
       {{"detector", true, ""},
        {.title = "scenes", .left = false, .id = "scenes"},
        {"level", true, ""},
@@ -106,7 +107,7 @@ TitledTable summary_table(const results::Results& results) {
        {.title = "body m/s", .left = false, .spare = 5},
        {.title = "hover mm", .left = false, .spare = 2},
        {.title = "question", .left = true, .id = "question", .role = Role::kOfTimes, .spare = 7},
-       {.title = "passes", .left = false, .id = "passes", .spare = 8}},
+       {.title = "passes", .left = false, .id = "passes", .role = Role::kOfTimes, .spare = 8}},
       {}};
   for (const char* reference : results::kReferences)
     out.columns.push_back(reference_column(reference, ""));

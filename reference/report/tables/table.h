@@ -33,4 +33,10 @@ struct TitledTable {
   std::string id = {};  ///< an anchor, if something links to it
 };
 
+/// Also from rows that have a message in place of figures.
+void erase_column(std::size_t i, TitledTable& table);
+
+/// Leaves out the columns of times, and those about times, if no row has any.
+void leave_out_untimed(TitledTable& table);
+
 }  // namespace contactcheck::report

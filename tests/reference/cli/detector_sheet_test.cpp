@@ -77,7 +77,7 @@ TEST(DetectorSheet, OfOneThatSpeaksInMargins) {
             "margin 0.002 m,\n"
             "              strictly nearer\n"
             "  means       a vertex nearer than the sum of both margins\n"
-            "  numbers     single precision, fed at scale 40\n"
+            "  numbers     single precision, given at scale 40\n"
             "  depth       vertex-surface\n");
 }
 

@@ -222,7 +222,7 @@ def test_rounded_input_is_judged_where_the_rule_says_so(touch, results):
                               "allowed at most 0")
     assert touch("paper", results, **rule, at_most=1).verdict == "pass"
     check = touch("exact", results, **rule, at_most=0)
-    assert check.sentence == "touch  exact: the detector is fed doubles: nothing is rounded"
+    assert check.sentence == "touch  exact: the detector is given doubles: nothing is rounded"
 
 
 DEFECTS = [{"scenes": ["hard-gap"], "detectors": ["exact"], "measure": "known_defects", "at_most": 0}]

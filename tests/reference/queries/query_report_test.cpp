@@ -77,7 +77,7 @@ TEST(QueryText, HasARowForEachDetectorAndSize) {
   detector                         missed  spurious    early     late  median us  mean us  99 % us  worst us  at line
   exact                                 0         0  4.5e-13  2.0e-14       0.25     1.50     9.88       123      801
   single (34 refused) (10 errors)     290       100        -        -       0.10     0.20     0.30     12.00       17
-    as fed (500 contacts)               1         1
+    as given (500 contacts)             1         1
   (oracle)                                                                  5.00    25.00      250      1000        9
   first of single: missed at line 9, spurious at line 17, error at line 41 (a time of nan)
 
@@ -157,10 +157,10 @@ TEST(QueryText, HasAColumnOfNearOnesWhereThereAreSome) {
   const std::size_t begin = text.find("  detector");
   EXPECT_EQ(
       text.substr(begin, text.find("  (oracle)") - begin),
-      R"(  detector                 missed  spurious           near    early     late  median us  mean us  99 % us  worst us  at line
-  exact                         0         0              0  4.5e-13  2.0e-14       0.25     1.50     9.88       123      801
-  single                      290       100  7 (1.3e-06 m)        -        -       0.10     0.20     0.30     12.00       17
-    as fed (500 contacts)       1         1        0 + 2 ?
+      R"(  detector                   missed  spurious           near    early     late  median us  mean us  99 % us  worst us  at line
+  exact                           0         0              0  4.5e-13  2.0e-14       0.25     1.50     9.88       123      801
+  single                        290       100  7 (1.3e-06 m)        -        -       0.10     0.20     0.30     12.00       17
+    as given (500 contacts)       1         1        0 + 2 ?
 )");
 }
 

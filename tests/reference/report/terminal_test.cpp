@@ -58,7 +58,7 @@ TEST(Terminal, ExplainsTheColumnsShownWhereAskedTo) {
   spurious     reported, not true
   hover mm     largest true distance at the moment contact is first reported
   ms/frame     map + update + query in playback, without the first frame; (own ...): update + query by its own clock
-  vs fcl-aabb  time of fcl-aabb / time of this detector, playback
+  vs fcl-aabb  time of fcl-aabb / time of this detector, same question, playback
 )"));
   EXPECT_THAT(text, Not(HasSubstr("--explain")));
 }
@@ -80,6 +80,16 @@ TEST(Terminal, LeavesOutColumnsWithoutAValue) {
   EXPECT_THAT(text, HasSubstr("  body m/s  hover mm  late\n"));
   EXPECT_THAT(text, Not(HasSubstr("ms/frame")));
   EXPECT_THAT(text, Not(HasSubstr("question")));
+}
+
+TEST(Terminal, NamesQuestionsWhereRowsDifferInThem) {
+  auto results = sample_results();
+  EXPECT_THAT(terminal_of(results, false), Not(HasSubstr("question")));
+  results["runs"][1]["time_ms"]["question"] = "body";
+  const std::string text = terminal_of(results, false);
+  EXPECT_THAT(text, HasSubstr("  question   ms/frame  "));
+  EXPECT_THAT(text, HasSubstr("  triangles      2.00  "));
+  EXPECT_THAT(text, HasSubstr("  body          0.500  "));
 }
 
 TEST(Terminal, SaysOnceWhatThreeRowsShare) {

@@ -48,13 +48,14 @@ function barsOf({bars}: PhaseTimes, mapping: boolean): Bar[] {
     .sort((a, b) => a.total - b.total);
 }
 
-// Some detectors take a thousand times as long: unless all is asked for, the axis ends where two
-// thirds of the bars fit, and longer ones are cut and say how long they are.
+const kCutFrom = 2; // axes: what is hardly longer is not cut
+
+// Some detectors take a thousand times as long: unless all is asked for, the axis then ends where
+// two thirds of the bars fit, and longer ones are cut and say how long they are.
 function axisEnd(bars: Bar[], whole: boolean): number {
   const longest = bars[bars.length - 1].total;
-  return whole
-    ? longest
-    : Math.min(longest, 1.25 * bars[Math.floor((bars.length - 1) * 0.67)].total);
+  const most = 1.25 * bars[Math.floor((bars.length - 1) * 0.67)].total;
+  return whole || longest < kCutFrom * most ? longest : most;
 }
 
 const kMost = 40;

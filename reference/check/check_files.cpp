@@ -84,18 +84,22 @@ std::string frame_lines(const Json& event) {
   return out;
 }
 
-std::string step_lines(const Json& event) {
+std::string step_lines(const FoundContacts& step) {
+  const Json& event = step.event;
   std::string out;
-  for (const Json& c : event.at("contacts")) {
+  for (std::size_t i = 0; i < step.found.size(); ++i) {
+    const Json& c = event.at("contacts").at(i);
     Line line = line_of("step", event["step"], event["files"][0], c["bodies"][0], c["bodies"][1]);
-    line.set("allowed", c["allowed"].get<bool>() ? "yes" : "no");
+    line.set("allowed", !step.found[i] ? "frames" : c["allowed"].get<bool>() ? "yes" : "no");
     line.set("start", c["start"]);
     line.set("end", c["end"]);
     line.set("later_pairs", c["later_pairs"]);
     line.set("passing_pairs", c["passing_pairs"]);
     if (const Json& first = c["first"]; !first.is_null()) {
-      line.set("first_a", element_text(first["elements"][0]));
-      line.set("first_b", element_text(first["elements"][1]));
+      // The vertex comes first, of whichever body.
+      const bool swapped = first["elements"][0]["body"] != c["bodies"][0];
+      line.set("first_a", element_text(first["elements"][swapped ? 1 : 0]));
+      line.set("first_b", element_text(first["elements"][swapped ? 0 : 1]));
       line.set("time_lower", first["time"]["lower"]);
       line.set("time_upper", first["time"]["upper"]);
     }
@@ -116,7 +120,7 @@ std::string check_csv(const CheckSummary& summary) {
   for (const char* title : kColumns) out += (out.empty() ? "" : ",") + std::string(title);
   out += "\r\n";
   for (const CheckedFrame& frame : summary.listed()) {
-    if (!frame.step.event.is_null()) out += step_lines(frame.step.event);
+    if (!frame.step.event.is_null()) out += step_lines(frame.step);
     if (!frame.here.event.is_null()) out += frame_lines(frame.here.event);
   }
   return out;

@@ -29,8 +29,10 @@ void add_reduce(CommandLine& line) {
       ->add_option("--out", arguments->out,
                    "minimal case, a family that run takes (default: beside the case)")
       ->type_name("FILE");
-  reduce->add_option("--print", arguments->language, "test on stdout: c++ (default), c or python")
-      ->check(CLI::IsMember({"c++", "c", "python"}))
+  reduce
+      ->add_option("--print", arguments->language,
+                   "test on stdout: c++ (default), c, javascript or python")
+      ->check(CLI::IsMember({"c++", "c", "javascript", "python"}))
       ->type_name("LANGUAGE");
   reduce->add_option("--budget", arguments->budget, "candidates to try at most (default 20000)")
       ->check(whole_in(1, 100000000))

@@ -131,7 +131,11 @@ std::string command_of(const CheckArguments& arguments, const Subject& subject) 
   std::string out = "contactcheck check";
   if (!subject.recording.empty()) out += " " + text::in_shell(subject.recording.string());
   for (const std::string& word : subject.files.shown) out += " " + word;
-  return out + option_words(arguments);
+  out += option_words(arguments);
+  for (const std::string& frame : arguments.keep) out += " --keep " + text::in_shell(frame);
+  if (arguments.out != CheckArguments{}.out)
+    out += " --out " + text::in_shell(arguments.out.string());
+  return out;
 }
 
 // Not the vertices: each frame has a stamp of its own, and frames may be added.

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "reference/cli/wrapped_text.h"
+#include "reference/text/counted.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -127,6 +128,12 @@ std::string needs_text(const plugin::Declaration& d) {
   return d.needs_nodes ? "lattice nodes" : "";
 }
 
+std::string prepared_text(const plugin::Declaration& d) {
+  if (!d.prepares_again) return "";
+  return "again for other bodies" +
+         (d.warm_up > 0 ? ", warmed up by " + text::counted(d.warm_up, "frame") : "");
+}
+
 }  // namespace
 
 std::string detector_sheet(const DetectorInfo& info, std::size_t width) {
@@ -162,6 +169,7 @@ std::string plugin_sheet(const plugin::Plugin& plugin, const std::vector<OptionI
     add_impacts(claims.kinds, claims.precision, sheet);
     sheet.line("tolerance", tolerance_text(claims.tolerance));
   }
+  sheet.line("prepared", prepared_text(declaration));
   add_options(options, spec.options, sheet);
   return sheet.text();
 }

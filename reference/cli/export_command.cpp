@@ -19,6 +19,7 @@
 #include "reference/scene/simulate_scene.h"
 #include "reference/scene/suite_file.h"
 #include "reference/scene/sweep_poses.h"
+#include "reference/suite/drawn_targets.h"
 #include "reference/suite/out_folder.h"
 #include "reference/text/counted.h"
 #include "reference/text/file_text.h"
@@ -33,7 +34,13 @@ std::vector<scene::SceneSource> sources_of(const ExportArguments& arguments) {
   const auto meshes = std::ranges::count_if(arguments.targets, names_mesh);
   if (meshes > 0) {
     if (!arguments.between)
-      throw InputError("mesh files are frames, which export takes with --between");
+      throw InputError(
+          "mesh files are frames, of which export writes proofs of steps with --between" +
+          std::string(
+              arguments.queries
+                  ? "; for queries, `check FRAMES --keep 3-4` writes a step as a recording, "
+                    "which export --queries takes"
+                  : ""));
     if (static_cast<std::size_t>(meshes) < arguments.targets.size())
       throw InputError("export takes frames as mesh files, or scenes, and not both at once");
     const scene::FrameFiles frames =
@@ -44,7 +51,14 @@ std::vector<scene::SceneSource> sources_of(const ExportArguments& arguments) {
   }
   const fs::path fixtures = scene::fixtures_directory();
   std::vector<scene::SceneSource> sources;
+  suite::RunTargets drawing;
+  drawing.frames = arguments.frames;
   for (const std::string& name : arguments.targets) {
+    if (name.starts_with("drawn-"))
+      if (const auto drawn = suite::find_drawn(name, drawing)) {
+        sources.insert(sources.end(), drawn->scenes.begin(), drawn->scenes.end());
+        continue;
+      }
     const scene::Target target = scene::find_target(name, fixtures);
     if (target.kind != scene::TargetKind::kSuite) {
       sources.emplace_back(target.file);

@@ -20,6 +20,7 @@
 #include "reference/reduce/minimal_case.h"
 #include "reference/reduce/reduction.h"
 #include "reference/reduce/simple_number.h"
+#include "reference/results/rerun.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
 #include "reference/text/id_check.h"
@@ -32,6 +33,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kProgressEvery = 20;  // candidates
 constexpr std::chrono::seconds kLogEvery{2};
+constexpr double kKeptGap = 0.25;  // of Finding::gap: numbers become simple, and the defect stays
 
 // From the command line only: a case file that names a program to start is not mere data.
 OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
@@ -173,6 +175,9 @@ class ReduceCommand {
 
   static bool keeps_position(const reduce::CaseCandidate& candidate,
                              const reduce::ProbeVerdict& verdict, const reduce::Defect& defect) {
+    if (defect.finding.gap > 0.0 &&
+        reduce::gap_of(candidate, verdict, defect.finding) < kKeptGap * defect.finding.gap)
+      return false;
     if (!defect.finding.general) return true;
     const ElementPair& pair = reduce::disagreement_of(verdict, defect.finding).pair;
     return reduce::in_general_position(candidate, {pair.body_a, pair.a}, {pair.body_b, pair.b});
@@ -246,9 +251,10 @@ std::string title_of(const reduce::MinimalCase& minimal) {
 
 // The test alone on standard output, so that it can be written into a file.
 void print(const ReducedCase& reduced, const std::string& language) {
-  const reduce::TestLanguage test = language == "python" ? reduce::TestLanguage::kPython
-                                    : language == "c"    ? reduce::TestLanguage::kC
-                                                         : reduce::TestLanguage::kCpp;
+  const reduce::TestLanguage test = language == "python"       ? reduce::TestLanguage::kPython
+                                    : language == "javascript" ? reduce::TestLanguage::kJavaScript
+                                    : language == "c"          ? reduce::TestLanguage::kC
+                                                               : reduce::TestLanguage::kCpp;
   const reduce::CaseCandidate &before = reduced.whole, &after = reduced.minimal.candidate;
   std::fprintf(stderr, "%s\n\n", title_of(reduced.minimal).c_str());
   std::fprintf(stderr, "  %-28s %10s %10s\n", "", "before", "after");
@@ -294,13 +300,10 @@ std::vector<ReduceArguments> first_errors(const results::Results& results, const
     one.drawn = drawn_text(d.scene);
   }
   for (const results::Run& run : results.runs) {
-    const fs::path recording = out / "recordings" / (run.scene + ".ccr");
-    if (run.status != results::Status::kError || !fs::exists(recording) ||
-        !seen.insert({run.detector, "", "error"}).second)
+    if (!results::failed_in_a_frame(run) || !seen.insert({run.detector, "", "error"}).second)
       continue;
     ReduceArguments& one = wanted.emplace_back();
-    one.target = recording;
-    if (run.failed_frame) one.target += "@" + std::to_string(*run.failed_frame);
+    one.target = (out / run.recording).string() + "@" + std::to_string(*run.failed_frame);
     one.detector = run.detector;
     one.kind = "error";
     one.out = file(run.detector, "error", run.scene);

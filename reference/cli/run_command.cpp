@@ -56,10 +56,7 @@ std::vector<Reducible> reducible(const results::Results& results, const fs::path
                            ", level " + d.level,
                        out / d.case_file});
   for (const results::Run& run : results.runs) {
-    if (run.status != results::Status::kError || !run.failed_frame ||
-        any_impact(run.semantics.levels) || run.message.ends_with("(while timed)") ||
-        run.recording.empty())
-      continue;
+    if (!results::failed_in_a_frame(run)) continue;
     const std::string frame = std::to_string(*run.failed_frame);
     found.push_back({run.detector, "gave no answer in " + run.scene + ", frame " + frame,
                      (out / run.recording).string() + "@" + frame});

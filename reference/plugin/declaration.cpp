@@ -120,6 +120,9 @@ Json impacts_json(const ImpactClaims& claims) {
 }  // namespace
 
 Semantics read_semantics(const text::JsonField& field) {
+  field.no_misspelt_keys({"levels", "questions", "informative", "body", "touching", "exact",
+                          "margin", "tolerance", "tolerance_of_start", "precision", "scale",
+                          "depth_kind", "whole_cells", "means"});
   Semantics s;
   s.levels = named_values(field.at("levels"), kLevels);
   s.questions = named_values(field.at("questions"), kQuestions);
@@ -140,6 +143,7 @@ Semantics read_semantics(const text::JsonField& field) {
 }
 
 ImpactClaims read_impact_claims(const text::JsonField& field) {
+  field.no_misspelt_keys({"kinds", "precision", "tolerance", "tolerance_of_start"});
   ImpactClaims claims;
   claims.kinds = named_values(field.at("kinds"), kHeaderKinds);
   if (field.has("precision"))
@@ -151,6 +155,8 @@ ImpactClaims read_impact_claims(const text::JsonField& field) {
 }
 
 Declaration read_declaration(const text::JsonField& field) {
+  field.no_misspelt_keys({"id", "summary", "version", "options", "needs", "unisolated", "transient",
+                          "prepares_again", "warm_up", "impacts", "semantics"});
   Declaration out;
   out.id = text::parse_id(field.at("id"));
   out.summary = optional_line(field, "summary");

@@ -70,7 +70,7 @@ struct Declaration {
 };
 
 /// Reads one strictly; README.md beside this header gives its keys. Keys that it does not know are
-/// passed over, so that later versions may add some.
+/// passed over, so that later versions may add some, unless they resemble one of these.
 /// @throws InputError: one sentence with the document, the place, the value and what is allowed
 Declaration read_declaration(const text::JsonField& field);
 Semantics read_semantics(const text::JsonField& field);

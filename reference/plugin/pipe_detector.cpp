@@ -8,6 +8,7 @@
 #include "reference/plugin/pipe_messages.h"
 #include "reference/plugin/pipe_process.h"
 #include "reference/plugin/warm_up.h"
+#include "reference/results/rerun.h"
 #include "reference/text/counted.h"
 #include "reference/text/printable.h"
 
@@ -143,28 +144,35 @@ class PipeDetector : public Detector {
     });
   }
 
-  // Its answers are read, so that one that cannot be is an error, and forgotten.
   void warm_up() {
     const std::uint32_t frames = object_.declaration().warm_up;
     if (frames == 0) return;
     const WarmUpScene scene;
-    give_bodies(scene.bodies());
+    std::uint32_t frame = 0;
+    try {
+      give_bodies(scene.bodies());
+      for (; frame < frames; ++frame) warm_up(scene, frame);
+    } catch (const std::exception& e) {
+      throw std::runtime_error("in frame " + std::to_string(frame) + results::kOfWarmUp + ": " +
+                               e.what());
+    }
+  }
+
+  // Its answers are read, so that one that cannot be is an error, and forgotten.
+  void warm_up(const WarmUpScene& scene, std::size_t frame) {
     const std::vector<Question>& questions = expected_.empty() ? semantics().questions : expected_;
-    ContactSet forgotten;
-    for (std::uint32_t i = 0; i < frames; ++i)
-      for (const bool steps : {false, true}) {
-        if (std::ranges::count(questions, steps, is_of_steps) == 0) continue;
-        if (steps) {
-          update_step(scene.step(i));
-        } else {
-          update(scene.frame(i));
-        }
-        for (const Question question : questions) {
-          if (is_of_steps(question) != steps) continue;
-          forgotten.clear();
-          query(question, forgotten);
-        }
+    for (const bool steps : {false, true}) {
+      if (std::ranges::count(questions, steps, is_of_steps) == 0) continue;
+      if (steps) {
+        update_step(scene.step(frame));
+      } else {
+        update(scene.frame(frame));
       }
+      for (const Question question : questions) {
+        ContactSet forgotten;
+        if (is_of_steps(question) == steps) query(question, forgotten);
+      }
+    }
   }
 
   PipeObject object_;
@@ -189,6 +197,7 @@ class PipeImpacts final : public ImpactDetector {
       require_same_claims(object_.name(), before, now);
       tolerance_ = now.tolerance;
     });
+    warm_up();
   }
 
   ImpactTolerance tolerance() const override { return tolerance_; }
@@ -206,6 +215,15 @@ class PipeImpacts final : public ImpactDetector {
   }
 
  private:
+  void warm_up() {
+    const std::uint32_t frames = object_.declaration().warm_up;
+    if (frames == 0) return;
+    const WarmUpScene scene;
+    for (std::uint32_t i = 0; i < frames; ++i)
+      for (const ImpactKind kind : object_.declaration().impacts->kinds)
+        query(scene.query(i, kind));
+  }
+
   PipeObject object_;
   ImpactTolerance tolerance_;
 };

@@ -122,6 +122,7 @@ std::string impact_message(const ImpactQuery& query) {
 // NaN has no place in JSON; a time beyond [0, 1] is judged as an error.
 ReportedImpact read_impact(const Reply& reply) {
   const text::JsonField root = reply.root();
+  root.no_misspelt_keys({"message", "contact", "time", "tolerance"});
   ReportedImpact out;
   out.contact = root.at("contact").boolean();
   if (root.has("time")) out.time = root.at("time").number();

@@ -126,10 +126,50 @@ std::string for_shell(const std::string& command) {
   return the_shells || has_operators(command) ? command : "exec " + command;
 }
 
+void drop_blank_end(std::string& text) { text.erase(text.find_last_not_of(" \t\r\n") + 1); }
+
 // The last line `File "mine.py", line 7, in update` of a Python traceback.
 std::string traceback_place(const std::string& text) {
   const std::size_t found = text.rfind("\n  File \"");
   return found == std::string::npos ? "" : text::printable_line(text.substr(found));
+}
+
+struct LastWords {
+  std::string cause, place;
+};
+
+// Drops the last line if it begins so.
+bool drop_last_line(const char* beginning, std::string& text) {
+  const std::size_t line = text.rfind('\n') + 1;  // 0 for the only line
+  if (text.compare(line, std::strlen(beginning), beginning) != 0) return false;
+  text.erase(line);
+  drop_blank_end(text);
+  return true;
+}
+
+// Node.js ends with its version. Above it, behind an empty line, stands `TypeError: no such model`,
+// then the calls, the innermost first, and what else the error has.
+LastWords last_words_of_node(std::string text) {
+  constexpr const char* kCall = "\n    at ";
+  drop_last_line("(Use `node ", text);
+  const std::size_t error = text.rfind("\n\n");
+  const std::size_t call = error == std::string::npos ? error : text.find(kCall, error);
+  if (call == std::string::npos)
+    return {text::printable_line(text.substr(text.rfind('\n') + 1)), ""};
+  std::string place = text::printable_line(text.substr(call + std::strlen(kCall)));
+  if (place.ends_with(" {")) place.resize(place.size() - 2);
+  return {text::printable_line(text.substr(error + 2)), std::move(place)};
+}
+
+LastWords last_words_of(std::string text) {
+  drop_blank_end(text);
+  if (drop_last_line("Node.js v", text)) return last_words_of_node(std::move(text));
+  // Of V8, which then lists its own functions.
+  if (const std::size_t fatal = text.rfind("\nFATAL ERROR: "); fatal != std::string::npos)
+    return {text::printable_line(text.substr(fatal + 1)), ""};
+  const std::size_t end = text.find_last_of('\n');
+  return {text::printable_line(text.substr(end + 1)),
+          end == std::string::npos ? "" : traceback_place(text.substr(0, end))};
 }
 
 // Between fork and exec: system calls alone. A library may have changed what is inherited.
@@ -298,13 +338,9 @@ std::string PipeProcess::first_error_line() const {
 
 // An interpreter names the cause in the last line of many, and before it where that was.
 std::string PipeProcess::last_words() const {
-  std::string text = errors_.last_text(kLongestErrorText);
-  text.erase(text.find_last_not_of(" \t\r\n") + 1);
-  const std::size_t end = text.find_last_of('\n');
-  const std::string line = text::printable_line(text.substr(end + 1));
-  if (line.empty()) return "";
-  const std::string place = end == std::string::npos ? "" : traceback_place(text.substr(0, end));
-  return "; its last words: " + line + (place.empty() ? "" : " (" + place + ")");
+  const LastWords words = last_words_of(errors_.last_text(kLongestErrorText));
+  if (words.cause.empty()) return "";
+  return "; its last words: " + words.cause + (words.place.empty() ? "" : " (" + words.place + ")");
 }
 
 }  // namespace contactcheck::plugin

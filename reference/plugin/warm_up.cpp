@@ -46,4 +46,22 @@ Frame WarmUpScene::frame(std::size_t number) const {
   return out;
 }
 
+ImpactQuery WarmUpScene::query(std::size_t number, ImpactKind kind) const {
+  const TriangleMesh& torus = bodies_[0].shape->mesh;
+  const Triangle& triangle = torus.triangles[number % torus.triangles.size()];
+  const std::size_t spheres = bodies_[1].shape->mesh.vertices.size();
+  ImpactQuery out;
+  out.kind = kind;
+  for (const bool end : {false, true}) {
+    const std::vector<BodyPose>& pose = poses_[(number + (end ? 1 : 0)) % kPoses];
+    const Vec3 first = pose[1].vertices[number % spheres];
+    const Vec3 second = kind == ImpactKind::vertex_triangle
+                            ? pose[0].vertices[triangle[0]]
+                            : pose[1].vertices[(number + 1) % spheres];
+    (end ? out.end : out.start) = {first, second, pose[0].vertices[triangle[1]],
+                                   pose[0].vertices[triangle[2]]};
+  }
+  return out;
+}
+
 }  // namespace contactcheck::plugin

@@ -7,6 +7,7 @@
 
 #include "core/deform/body.h"
 #include "core/types/frame.h"
+#include "core/types/impact.h"
 
 namespace contactcheck::plugin {
 
@@ -27,6 +28,8 @@ class WarmUpScene {
   Frame frame(std::size_t number) const;
   /// From that pose to the next.
   Step step(std::size_t number) const { return {frame(number), frame(number + 1)}; }
+  /// In that step, elements of both bodies: each number other ones.
+  ImpactQuery query(std::size_t number, ImpactKind kind) const;
 
  private:
   struct BodyPose {

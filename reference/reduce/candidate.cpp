@@ -8,6 +8,7 @@
 #include "core/types/check.h"
 #include "core/types/given_vertices.h"
 #include "reference/oracle/exact_predicates.h"
+#include "reference/oracle/oracle.h"
 
 namespace contactcheck::reduce {
 namespace {
@@ -137,6 +138,22 @@ std::vector<int> dimensions_of(const CaseCandidate& candidate) {
   for (const TriangleMesh& mesh : candidate.meshes)
     for (const Triangle& t : mesh.triangles) out.push_back(dimension_of(triangle_corners(mesh, t)));
   return out;
+}
+
+double relative_gap(const CaseCandidate& candidate, std::size_t first, std::size_t second) {
+  CaseCandidate pair;
+  Aabb box;
+  for (const std::size_t mesh : {first, second}) {
+    pair.names.push_back(candidate.names[mesh]);
+    pair.meshes.push_back(candidate.meshes[mesh]);
+    for (const Vec3& vertex : candidate.meshes[mesh].vertices) box.extend(vertex);
+  }
+  const Snapshot snapshot = snapshot_of(pair);
+  Frame frame;
+  for (const std::vector<Vec3>& vertices : snapshot.nodes)
+    frame.bodies.push_back({vertices, vertices});
+  const double gap = oracle::Oracle(snapshot.bodies).distance(frame, {0, 1}).lower;
+  return gap > 0.0 ? gap / box.extent().maxCoeff() : 0.0;
 }
 
 bool in_general_position(const CaseCandidate& candidate, const Piece& first, const Piece& second) {

@@ -80,6 +80,9 @@ bool can_be_reduced(const std::string& level);
 /// @throws InputError when errors at that level cannot be reduced
 void require_reducible(const std::string& level);
 
+/// How far apart what `verdict` on `candidate` reports is (Finding::gap). @pre it shows `finding`
+double gap_of(const CaseCandidate& candidate, const ProbeVerdict& verdict, const Finding& finding);
+
 /// Finds the first frame in which the detector (by canonical name) has the wanted error. `is_case`:
 /// the task is a case of an earlier run, which names the bodies.
 /// @throws InputError, one sentence, if there is none

@@ -123,9 +123,9 @@ std::string snake_case(const std::string& text) {
 
 // "2.0", not "2": pasted into other types than arrays of double, it still gives doubles.
 std::string literal(double value, TestLanguage language) {
-  // Python reads hexadecimal by a call alone; its decimals are exact.
-  const std::string text =
-      language == TestLanguage::kPython ? text::shown(value) : number_text(value);
+  // Others read no hexadecimal fractions; their decimals are exact.
+  const bool hexadecimal = language == TestLanguage::kCpp || language == TestLanguage::kC;
+  const std::string text = hexadecimal ? number_text(value) : text::shown(value);
   return text.find_first_of(".xe") == std::string::npos ? text + ".0" : text;
 }
 
@@ -144,6 +144,10 @@ std::string mesh_text(const TriangleMesh& mesh, const std::string& name, TestLan
       case TestLanguage::kC:
         open = "  const " + element + " " + name + what + "[" + count + "][3] = {\n";
         row[0] = "      {", row[1] = "},\n", close = "  };\n";
+        break;
+      case TestLanguage::kJavaScript:
+        open = "  const " + name + what + " = [\n";
+        row[0] = "      [", row[1] = "],\n", close = "  ];\n";
         break;
       case TestLanguage::kPython:
         open = "    " + name + what + " = [\n";
@@ -254,6 +258,9 @@ std::string expectation(const Finding& finding, const CaseAnswers& answers, std:
   }
   if (language == TestLanguage::kPython)
     return finding.kind == "error" ? call : (contact ? "assert " : "assert not ") + call;
+  if (language == TestLanguage::kJavaScript)
+    return finding.kind == "error" ? call + ";"
+                                   : (contact ? "assert.ok(" : "assert.ok(!") + call + ");";
   return finding.kind == "error" ? call + ";" : (contact ? "assert(" : "assert(!") + call + ");";
 }
 
@@ -307,11 +314,25 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestL
   const bool python = language == TestLanguage::kPython;
   const std::string comment = python ? "# " : "// ", indent = python ? "    " : "  ";
   const std::string function = "test_" + snake_case(c.detector + "-" + words);
-  const std::string head =
-      python ? "def " + function + "():\n"
-      : language == TestLanguage::kC
-          ? "#include <assert.h>\nvoid " + function + "(void) {\n"
-          : "TEST(" + camel_case(c.detector) + ", " + camel_case(words) + ") {\n";
+  std::string head, end = "}\n";
+  switch (language) {
+    case TestLanguage::kCpp:
+      head = "TEST(" + camel_case(c.detector) + ", " + camel_case(words) + ") {\n";
+      break;
+    case TestLanguage::kC:
+      head = "#include <assert.h>\nvoid " + function + "(void) {\n";
+      break;
+    case TestLanguage::kJavaScript:
+      head =
+          "import assert from \"node:assert/strict\";\nimport test from \"node:test\";\n\ntest(\"" +
+          function + "\", () => {\n";
+      end = "});\n";
+      break;
+    case TestLanguage::kPython:
+      head = "def " + function + "():\n";
+      end = "\n\nif __name__ == \"__main__\":\n    " + function + "()\n";
+      break;
+  }
   const std::vector<std::string>& names = c.candidate.names;
   const std::size_t count = names.size();
   std::vector<std::string> whose;  // where the names of the test are not the scene's
@@ -326,8 +347,7 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestL
          comment + "Exact: " + answers.exact + ".\n" + indent + comment + c.detector +
          " answered: " + answers.detector + ".\n" + indent + comment +
          contract(c.finding, answers, count) + "\n" + indent +
-         expectation(c.finding, answers, count, language) + "\n" +
-         (python ? "\n\nif __name__ == \"__main__\":\n    " + function + "()\n" : "}\n");
+         expectation(c.finding, answers, count, language) + "\n" + end;
 }
 
 }  // namespace contactcheck::reduce

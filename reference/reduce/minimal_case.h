@@ -47,9 +47,10 @@ struct CaseAnswers {
 CaseAnswers answers_of(const MinimalCase& minimal, const ProbeVerdict& verdict);
 
 enum class TestLanguage {
-  kCpp,     ///< C++17, a GoogleTest that needs `<array>` alone
-  kC,       ///< C99
-  kPython,  ///< nested lists of floats and integers, for pytest
+  kCpp,         ///< C++17, a GoogleTest that needs `<array>` alone
+  kC,           ///< C99
+  kJavaScript,  ///< nested arrays of numbers, for node:test
+  kPython,      ///< nested lists of floats and integers, for pytest
 };
 
 /// A test: the vertices and triangles of all meshes bit for bit, what was answered, and the

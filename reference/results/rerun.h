@@ -19,4 +19,11 @@ std::string scene_words(const Results& results, const std::string& scene);
 /// The folder of --out in the results' command.
 std::string out_folder(const Results& results);
 
+/// What the messages of errors say of those that no frame of the scene alone shows: in a timed
+/// pass, behind the message; in a warm-up, behind the number of its frame.
+inline constexpr const char* kWhileTimed = " (while timed)";
+inline constexpr const char* kOfWarmUp = " of the warm-up";
+/// True if the row ended in an error while a frame was judged: the recording of the scene shows it.
+bool failed_in_a_frame(const Run& row);
+
 }  // namespace contactcheck::results

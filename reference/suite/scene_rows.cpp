@@ -5,6 +5,7 @@
 
 #include "reference/judge/contacts_json.h"
 #include "reference/results/references.h"
+#include "reference/results/rerun.h"
 #include "reference/timing/speedup.h"
 
 namespace contactcheck::suite {
@@ -39,7 +40,7 @@ results::Run judged_row(const SceneAnswers& scene, const DetectorAnswer& detecto
     for (const std::string& note : answer.notes)
       if (!contains(notes, note)) notes.push_back(note);
   for (const std::string& note : notes)
-    if (!contains(detector.run.notes, note)) run.notes.push_back(note + " (while timed)");
+    if (!contains(detector.run.notes, note)) run.notes.push_back(note + results::kWhileTimed);
   if (!run.ok() || turns.empty()) return run;
   if (const TurnAnswer* failed = failed_turn(scene.turns, detector.position)) {
     // It was judged well and fails now: that is its result.
@@ -70,7 +71,7 @@ results::Run broken_row(const SceneAnswers& scene, std::uint32_t position) {
   run.failed_frame = outcome.frame;
   run.message = place_of(scene.task.id, outcome) +
                 (outcome.detector ? "" : " in the suite's own code, after this detector had run") +
-                (outcome.timed ? " (while timed)" : "");
+                (outcome.timed ? results::kWhileTimed : "");
   run.frames = scene.judged.scene.frames;
   run.contact_frames = scene.judged.scene.contact_frames;
   return run;

@@ -17,7 +17,6 @@
 #include "reference/suite/supervisor.h"
 #include "reference/suite/worker.h"
 #include "reference/text/printable.h"
-#include "reference/timing/cache_sweep.h"
 #include "reference/timing/schedule.h"
 #include "reference/timing/speedup.h"
 
@@ -133,9 +132,8 @@ class SceneRun {
       job_.temporary = scratch_ / (name + ".tmp");
       fs::create_directory(job_.temporary);
       write_job(job_file, job_);
-      RunSettings limits = job_.settings;
-      if (limits.timing) limits.memory_limit += timing::sweep_bytes();  // which is ours
-      const WorkerOutcome outcome = run_supervised(request_.executable, job_file, limits, report);
+      const WorkerOutcome outcome =
+          run_supervised(request_.executable, job_file, job_.settings, report);
       std::error_code ignored;
       fs::remove_all(job_.temporary, ignored);
       if (outcome.done) return read_answer(job_.answer_file);

@@ -39,8 +39,8 @@ using ProgressCallback = std::function<void(const WorkerProgress&)>;
 
 /// Runs `executable worker JOB_FILE` with the job's limits until it ends; children that it leaves
 /// behind are ended with it. A worker is killed whose step counter stands still for `call_limit`
-/// seconds, whose resident memory, with that of all that it has started, passes `memory_limit`, or
-/// whose output passes 64 MiB.
+/// seconds, whose resident memory, with that of all that it has started and without what sweeps
+/// caches for timing, passes `memory_limit`, or whose output passes 64 MiB.
 /// @throws InputError when it cannot be started; Interrupted, after the worker's end, when this
 /// program is asked to end
 WorkerOutcome run_supervised(const std::filesystem::path& executable,

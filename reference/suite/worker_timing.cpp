@@ -12,6 +12,7 @@
 
 #include "reference/judge/closed_loop.h"
 #include "reference/judge/judge.h"
+#include "reference/results/rerun.h"
 #include "reference/scene/driven_simulation.h"
 #include "reference/suite/worker_state.h"
 #include "reference/timing/cache_sweep.h"
@@ -80,7 +81,7 @@ TurnAnswer take_turn(WorkerState& worker, const Turn& turn, WorkerEntry& entry,
   }
   answer.notes = std::exchange(entry.run.notes, {});
   if (!entry.usable()) {
-    answer.error = entry.run.message + " (while timed)";
+    answer.error = entry.run.message + results::kWhileTimed;
     answer.failed_frame = entry.run.failed_frame;
     answer.samples = {};
   }

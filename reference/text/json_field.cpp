@@ -49,6 +49,17 @@ void JsonField::only_keys(const std::vector<std::string>& keys) const {
   }
 }
 
+void JsonField::no_misspelt_keys(const std::vector<std::string>& keys) const {
+  require_object();
+  for (std::size_t i = 0; i < value_->keys.size(); ++i) {
+    const std::string& key = value_->keys[i];
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    if (const std::string similar = suggestion(key, keys); !similar.empty())
+      JsonField(value_->items[i], *this, member_path(path_, key))
+          .fail("is not a known key; " + similar + "allowed here: " + joined(keys));
+  }
+}
+
 std::string JsonField::exactly_one_of(const std::vector<std::string>& keys) const {
   require_object();
   std::string found;

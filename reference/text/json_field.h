@@ -45,6 +45,9 @@ class JsonField {
   /// Requires an object with no other keys than these.
   void only_keys(std::initializer_list<const char*> keys) const;
   void only_keys(const std::vector<std::string>& keys) const;
+  /// Requires an object whose other keys resemble none of these: of a document that a later version
+  /// of its format may have written.
+  void no_misspelt_keys(const std::vector<std::string>& keys) const;
   /// The one key of `keys` that is there. @throws when none or several are
   std::string exactly_one_of(const std::vector<std::string>& keys) const;
   bool has(const std::string& key) const { return value_->find(key) != nullptr; }

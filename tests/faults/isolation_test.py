@@ -76,8 +76,8 @@ LETHAL = {
     # Times between frames are given as frame 0; they are looked at up to frame 2, the first contact.
     "fault-crash:frame=0,phase=again": (f"frame 2, phase query: {CRASH}", UNTIMED),
     "fault-crash:frame=0,phase=update-again": (f"frame 2, phase update: {CRASH}", UNTIMED),
-    "fault-hang:phase=update-timed": (f"frame 2, phase update: {TIME_LIMIT}", (*TIMED, *SHORT_CALLS)),
-    "fault-hang:phase=timed": (f"frame 2, phase query: {TIME_LIMIT}", (*TIMED, *SHORT_CALLS)),
+    "fault-hang:phase=update-timed": (f"frame 2, phase update: {TIME_LIMIT} (while timed)", (*TIMED, *SHORT_CALLS)),
+    "fault-hang:phase=timed": (f"frame 2, phase query: {TIME_LIMIT} (while timed)", (*TIMED, *SHORT_CALLS)),
     "fault-hang": (f"frame 2, phase update: {TIME_LIMIT}", (*UNTIMED, *SHORT_CALLS)),
     "fault-abort": ("frame 2, phase update: signal 6 (Aborted)", UNTIMED),
     "fault-quick-exit": ("frame 2, phase update: exit code 0", UNTIMED),
@@ -114,7 +114,7 @@ def test_known_defect_that_is_an_error_is_no_failure_of_the_run(tmp_path, monkey
 def test_crash_while_timed_leaves_the_others_their_times(run_with):
     fault = "fault-crash:phase=timed"
     run = run_with(fault, TIMED)
-    assert re.fullmatch(r"scene tiny, frame 2, phase [a-z]+: signal 11 \(Segmentation fault\)",
+    assert re.fullmatch(r"scene tiny, frame 2, phase [a-z]+: signal 11 \(Segmentation fault\) \(while timed\)",
                         run.row(fault)["message"])
     assert run.outcome.exit_code == 3
     for honest in HONEST:

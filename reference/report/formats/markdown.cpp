@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -82,19 +83,50 @@ std::string markdown_of(const Items& items) {
   return out + "\n";
 }
 
-std::string section_of(const Section& section, const results::Index& index) {
+std::string meanings_of(const std::vector<Column>& columns) {
   std::string out;
-  for (const Block& block : section.build(index))
+  for (const Column& c : columns)
+    if (!c.meaning.empty()) out += fmt::format("- **{}**: {}\n", c.title, c.meaning);
+  return out;
+}
+
+/// What columns mean, by the titles of their tables; of equal titles the first alone.
+class Legend {
+ public:
+  void add(const TitledTable& table, const std::string& title) {
+    const std::string meanings = meanings_of(table.columns);
+    if (!table.rows.empty() && !meanings.empty() && seen_.insert(title).second)
+      text_ += title + ":\n\n" + meanings + "\n";
+  }
+  std::string text() const {
+    return text_.empty() ? "" : "## How to read the other tables\n\n" + text_;
+  }
+
+ private:
+  std::set<std::string> seen_;
+  std::string text_;
+};
+
+std::string section_of(const Section& section, const results::Index& index, Legend& legend) {
+  std::string out;
+  for (const Block& block : section.build(index)) {
+    if (const auto* const table = std::get_if<TitledTable>(&block))
+      legend.add(*table, table->title.empty() ? section.title : table->title);
     out += std::visit([](const auto& one) { return markdown_of(one); }, block);
+  }
   return out.empty() ? "" : fmt::format("## {}\n\n{}", section.title, out);
 }
 
-std::string scene_section(const results::Index& index, const results::Scene& scene) {
+std::string scene_section(const results::Index& index, const results::Scene& scene,
+                          Legend& legend) {
   const SceneReport report = scene_report(index, scene);
   std::string out = fmt::format("## {}\n\n{}. {}\n\n", scene.id, scene.title, report.sentence) +
                     untitled(report.bodies) + report.truth + "\n\n" + below_title(report.fits) +
                     below_title(report.pairs) + untitled(report.result);
-  for (const TitledTable& table : report.details) out += below_title(table);
+  for (const TitledTable& table : report.details) {
+    legend.add(table, table.title);
+    out += below_title(table);
+  }
   if (!report.notes.empty()) {
     out += "Notes:\n\n";
     for (const std::string& note : report.notes) out += "- " + note + "\n";
@@ -110,28 +142,23 @@ std::string scene_section(const results::Index& index, const results::Scene& sce
   return out;
 }
 
-std::string legend(const results::Results& results) {
-  std::string out = "## How to read the result table\n\n";
-  for (const Column& c : result_columns(results))
-    out += fmt::format("- **{}**: {}\n", c.title, c.meaning);
-  return out;
-}
-
 }  // namespace
 
 std::string markdown_report(const results::Index& index) {
   std::string out = "# contactcheck report\n\n" + origin_section(index.results());
+  Legend legend;
   for (const Section* section : sections()) {
     if (section->build != nullptr) {
-      out += section_of(*section, index);
+      out += section_of(*section, index, legend);
       continue;
     }
     // Families show only wrong detectors, and many drawn scenes only sums; tables of every detector
     // would bury them.
     for (const results::Scene* scene : shown_scenes(index.results()))
-      if (!scene->family) out += scene_section(index, *scene);
+      if (!scene->family) out += scene_section(index, *scene, legend);
   }
-  return out + legend(index.results());
+  return out + legend.text() + "## How to read the result table\n\n" +
+         meanings_of(result_columns(index.results()));
 }
 
 std::map<std::string, std::string> report_files(const results::Results& results) {

@@ -191,14 +191,9 @@ std::string own_notes(const results::Results& results, const results::Scene& sce
 
 }  // namespace
 
-std::string column_legend(const std::set<std::string>& shown) {
-  std::vector<Column> columns = result_columns();
-  const results::Results none;
-  for (Column& column : hard_sums(results::Index(none)).columns)
-    columns.push_back(std::move(column));
-  std::erase_if(columns, [&](const Column& column) {
-    return column.meaning.empty() || (!shown.empty() && !shown.contains(column.title));
-  });
+namespace {
+
+std::string legend(const std::vector<Column>& columns) {
   std::size_t width = 0;
   for (const Column& column : columns) width = std::max(width, column.title.size());
   std::string out;
@@ -207,15 +202,25 @@ std::string column_legend(const std::set<std::string>& shown) {
   return out;
 }
 
+}  // namespace
+
+std::string column_legend() {
+  ColumnMeanings meanings;
+  meanings.add(result_columns());
+  const results::Results none;
+  meanings.add(hard_sums(results::Index(none)).columns);
+  return legend(meanings.all());
+}
+
 std::string terminal_tables(const results::Results& results, bool color, bool explain) {
   const Headline headline = headline_of(results);
   std::string out = paint(headline.title, kBold, color) + "\n\n";
   const results::Index index(results);
-  std::set<std::string> shown;
+  ColumnMeanings shown;
   const auto table = [&](TitledTable of) {
     join_messages(of.rows);
     fit(of);
-    for (const Column& column : of.columns) shown.insert(column.title);
+    shown.add(of.columns);
     return text_of(of, color);
   };
   for (const results::Scene* scene : shown_scenes(results)) {
@@ -241,7 +246,7 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
   if (!explain) return out + "  report.md has all columns; --explain says what they mean\n";
   for (const std::string& line : {timing_line(results), steadiness_line(results)})
     if (!line.empty()) out += "  " + line + "\n\n";
-  return out + column_legend(shown);
+  return out + legend(shown.all());
 }
 
 }  // namespace contactcheck::report

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <set>
 #include <string>
 
 #include "reference/results/results.h"
@@ -13,7 +12,7 @@ namespace contactcheck::report {
 /// shown and how times were measured.
 std::string terminal_tables(const results::Results& results, bool color, bool explain = false);
 
-/// The meaning of the columns with a title in `shown`, one line each; all columns if it is empty.
-std::string column_legend(const std::set<std::string>& shown = {});
+/// The meaning of all columns of result tables, one line each.
+std::string column_legend();
 
 }  // namespace contactcheck::report

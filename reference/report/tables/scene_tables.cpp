@@ -148,18 +148,19 @@ TitledTable result_table(const RunList& runs) {
 // Every level of every detector: against the truth of the doubles and, for single precision,
 // against the truth of the values fed.
 TitledTable levels_table(const RunList& runs) {
-  TitledTable out{"Every level judged (sums over frames)",
-                  "",
-                  {{"detector", true, ""},
-                   {"level", true, ""},
-                   {"truth for", true, ""},
-                   {"truth", false, ""},
-                   {"reported", false, ""},
-                   {"missed", false, ""},
-                   {"spurious", false, ""},
-                   {"recall", false, ""},
-                   {"spurious rate", false, ""}},
-                  {}};
+  TitledTable out{
+      "Every level judged (sums over frames)",
+      "",
+      {{"detector", true, ""},
+       {"level", true, ""},
+       {"truth for", true, "doubles, or the rounded values of a single-precision detector"},
+       {"truth", false, ""},
+       {"reported", false, ""},
+       {"missed", false, ""},
+       {"spurious", false, ""},
+       {"recall", false, ""},
+       {"spurious rate", false, ""}},
+      {}};
   for (const Run* run : runs) {
     add_levels(*run, run->levels, "doubles", out);
     add_levels(*run, run->levels_rounded, "rounded values", out);
@@ -172,14 +173,16 @@ TitledTable graded_table(const RunList& runs) {
   TitledTable out{"Graded errors (lengths in mm, angles in degrees; max / mean / 95th percentile)",
                   "",
                   {{"detector", true, ""},
-                   {"contour missed", false, ""},
-                   {"contour covered", false, ""},
-                   {"spurious up to", false, ""},
-                   {"depth kind", true, ""},
-                   {"depths judged", false, ""},
-                   {"depth error", false, ""},
-                   {"normals judged", false, ""},
-                   {"normal error", false, ""}},
+                   {"contour missed", false, "length of the curve in which missed triangles meet"},
+                   {"contour covered", false, "share of the whole curve that was reported"},
+                   {"spurious up to", false, "largest true distance of a spurious pair"},
+                   {"depth kind", true,
+                    "what a depth is: vertex-surface, a vertex to the surface; convex-pair, two "
+                    "triangles or boxes until they part"},
+                   {"depths judged", false, "depths that have a certified truth"},
+                   {"depth error", false, "of these: largest, mean, 95th percentile"},
+                   {"normals judged", false, "normals that have a certified truth"},
+                   {"normal error", false, "of these: largest, mean, 95th percentile"}},
                   {}};
   for (const Run* run : runs) {
     const results::Geometry& g = run->geometry;
@@ -201,27 +204,28 @@ TitledTable stages_table(const RunList& runs) {
 }
 
 TitledTable times_table(const RunList& runs) {
-  TitledTable out{"Times in milliseconds per frame (playback unless said, means over passes)",
-                  "",
-                  {{"detector", true, ""},
-                   {"question", true, ""},
-                   {"prepare", false, ""},
-                   {"map", false, ""},
-                   {"update", false, ""},
-                   {"query", false, ""},
-                   {"frame", false, ""},
-                   {"contact frame", false, ""},
-                   {"first frame", false, "of a pass; the times before leave it out"},
-                   {"own clock", false,
-                    "update + query as the detector itself measured them, without the way through "
-                    "a pipe"},
-                   {"CPU time", false, "of the whole process tree"},
-                   {"frame, cold", false, "only of a detector's own question"},
-                   {"frames", false, "that were timed"},
-                   {"passes", false, ""},
-                   {"prepared, MiB", false, "heap that prepare leaves"},
-                   {"memory, MiB", false, "heap, the largest over all frames"}},
-                  {}};
+  TitledTable out{
+      "Times in milliseconds per frame (playback unless said, means over passes)",
+      "",
+      {{"detector", true, ""},
+       {"question", true, ""},
+       {"prepare", false, "once per scene, all bodies; a warm-up included"},
+       {"map", false, "deforms the vertices; of detectors that need them all"},
+       {"update", false, "takes the frame: refits trees, moves bounds"},
+       {"query", false, "finds the contacts"},
+       {"frame", false, "map + update + query"},
+       {"contact frame", false, "the same, of frames with contact"},
+       {"first frame", false, "of a pass; the times before leave it out"},
+       {"own clock", false,
+        "update + query as the detector itself measured them, without the way through "
+        "a pipe"},
+       {"CPU time", false, "of the whole process tree"},
+       {"frame, cold", false, "only of a detector's own question"},
+       {"frames", false, "that were timed"},
+       {"passes", false, ""},
+       {"prepared, MiB", false, "heap that prepare leaves; of a command all its processes"},
+       {"memory, MiB", false, "the same, the largest over all frames"}},
+      {}};
   const auto mebibytes = [](std::uint64_t bytes) {
     return format_number(static_cast<double>(bytes) / 1048576.0);
   };
@@ -280,8 +284,8 @@ TitledTable speedups_table(const RunList& runs) {
        {"its options", true, ""},
        {"playback", false, ""},
        {"cold", false, ""},
-       {"contact frames, playback", false, ""},
-       {"without map, playback", false, ""},
+       {"contact frames, playback", false, "of frames with contact alone"},
+       {"without map, playback", false, "without the mapping of both"},
        {"passes", false, ""}},
       {}};
   for (const Run* run : runs)

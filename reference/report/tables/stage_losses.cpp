@@ -120,10 +120,10 @@ TitledTable empty_stages_table(const std::string& title) {
           {{"detector", true, ""},
            {"stage", true, ""},
            {"unit", true, ""},
-           {"in", false, ""},
-           {"out", false, ""},
-           {"visited", false, ""},
-           {"missed", false, ""}},
+           {"in", false, "candidates that the stage was given"},
+           {"out", false, "those that it kept"},
+           {"visited", false, "what it looked at to decide"},
+           {"missed", false, "true contacts that none of the kept ones covers"}},
           {}};
 }
 

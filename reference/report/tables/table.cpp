@@ -4,6 +4,14 @@
 
 namespace contactcheck::report {
 
+void ColumnMeanings::add(const std::vector<Column>& columns) {
+  for (const Column& column : columns)
+    if (!column.meaning.empty() && std::ranges::none_of(all_, [&](const Column& known) {
+          return known.title == column.title && known.meaning == column.meaning;
+        }))
+      all_.push_back(column);
+}
+
 void erase_column(std::size_t i, TitledTable& table) {
   const auto at = static_cast<std::ptrdiff_t>(i);
   table.columns.erase(table.columns.begin() + at);

@@ -33,6 +33,16 @@ struct TitledTable {
   std::string id = {};  ///< an anchor, if something links to it
 };
 
+/// Columns of several tables that have a meaning, each once.
+class ColumnMeanings {
+ public:
+  void add(const std::vector<Column>& columns);
+  const std::vector<Column>& all() const { return all_; }
+
+ private:
+  std::vector<Column> all_;
+};
+
 /// Also from rows that have a message in place of figures.
 void erase_column(std::size_t i, TitledTable& table);
 

@@ -74,7 +74,7 @@ def test_finds_a_ball_that_passes_a_sheet(tmp_path):
 def test_writes_both_ends_of_the_first_step(tmp_path):
     assert check(tmp_path, BALL, "--between").exit_code == 1
     found = json.loads((tmp_path / "out" / "check.json").read_text(encoding="utf-8"))
-    assert found["command"].endswith(" --between")
+    assert " --between" in found["command"]
     assert (found["checked_frames"], found["frames"], found["exit_code"]) == (2, [], 1)
     step, = found["steps"]
     assert step["contacts"][0]["first"]["elements"] == [{"body": "ball", "vertex": 5},
@@ -336,3 +336,22 @@ def test_allowed_impacts_are_listed_as_such(tmp_path):
     with open(tmp_path / "out" / "check.csv", encoding="utf-8", newline="") as file:
         assert [row["allowed"] for row in csv.DictReader(file)] == ["yes"]
     assert not list((tmp_path / "out").glob("*.ccr"))
+
+
+# A body is named before the other by the order of files, a vertex before its triangle.
+def test_elements_of_a_table_are_those_of_its_bodies(tmp_path):
+    assert check(tmp_path, {"a_sheet": SHEET, "ball": [ball(1), ball(-0.5)]}, "--between").exit_code == 1
+    with open(tmp_path / "out" / "check.csv", encoding="utf-8", newline="") as file:
+        row, = csv.DictReader(file)
+    assert (row["body_a"], row["first_a"]) == ("a_sheet", "triangle 0")
+    assert (row["body_b"], row["first_b"]) == ("ball", "vertex 5")
+    assert row["allowed"] == "no"
+
+
+def test_steps_that_start_in_contact_are_left_to_their_frames(tmp_path):
+    check(tmp_path, {"ball": [ball(0), ball(-0.1)], "sheet": SHEET}, "--between")
+    with open(tmp_path / "out" / "check.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["allowed"] for row in rows if row["kind"] == "step"] == ["frames"]
+    found = json.loads((tmp_path / "out" / "check.json").read_text(encoding="utf-8"))
+    assert found["command"].endswith(f" --between --out {tmp_path / 'out'}")

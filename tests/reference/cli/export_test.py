@@ -89,6 +89,13 @@ def test_of_a_suite_is_a_folder_per_scene(tmp_path):
         expect_proven(out / name, count)
 
 
+def test_of_one_drawn_scene_has_its_frames(tmp_path):
+    exported(tmp_path / "out", "drawn-3-6")
+    assert len(frames_in(tmp_path / "out" / "drawn-3-6")) > 2
+    refused("export", "drawn-3-6", "--frames", "2", "--out", tmp_path / "out",
+            named=["--frames", "drawn with their frames"], folder=tmp_path)
+
+
 def test_replaces_an_earlier_one_whole(tmp_path, scene):
     out = tmp_path / "out"
     exported(out, scene)

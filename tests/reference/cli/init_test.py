@@ -1,5 +1,6 @@
 """`contactcheck init`: what it writes runs unchanged, by the commands that it prints."""
 
+import json
 import shutil
 
 import pytest
@@ -25,7 +26,7 @@ def test_what_it_writes_runs_as_it_is_and_shows_its_fault(tmp_path, language):
     assert mine.split()[1:6] == ["body", "6", "1", "0", "12"]
     gate = run_program("/bin/bash", ["-c", gate_it], cwd=folder)
     assert gate.exit_code == 1
-    assert "5 checks of 5 rules: 4 pass, 1 fail, 0 too noisy to judge, 0 cannot judge" in gate.out
+    assert "7 checks of 7 rules: 5 pass, 2 fail, 0 too noisy to judge, 0 cannot judge" in gate.out
     assert "FAIL  no spurious contacts" in gate.out
     workflow = (folder / ".github" / "workflows" / "contactcheck.yml").read_text(encoding="utf-8")
     assert "BUILD" not in workflow
@@ -57,7 +58,25 @@ def test_its_policy_is_green_for_a_detector_that_is_right(tmp_path):
     begun(tmp_path / "mine")
     gate = gate_of(tmp_path / "mine")
     assert gate.exit_code == 0, gate.out
-    assert "5 checks of 5 rules: 5 pass" in gate.out
+    assert "7 checks of 7 rules: 7 pass" in gate.out
+
+
+# A rule without a level is about the finest one that is claimed, here pairs of triangles.
+def test_its_policy_is_red_for_missed_bodies_beside_triangles_that_are_right(tmp_path):
+    begun(tmp_path / "mine")
+    assert gate_of(tmp_path / "mine").exit_code == 0
+    file = tmp_path / "mine" / "out" / "results.json"
+    results = json.loads(file.read_text(encoding="utf-8"))
+    [run] = results["runs"]
+    body = run["levels"]["body"]
+    run["levels"]["triangle"] = dict(body)
+    run["per_frame"]["level"] = "triangle"
+    body.update(hit=body["hit"] - 2, missed=2, reported=body["reported"] - 2)
+    file.write_text(json.dumps(results), encoding="utf-8")
+    gate = contactcheck("gate", "out/results.json", "--policy", "policy.json", cwd=tmp_path / "mine")
+    assert gate.exit_code == 1
+    assert "FAIL  no missed pairs of bodies" in gate.out
+    assert "FAIL  no missed contacts" not in gate.out
 
 
 # It would be wrong about nothing.

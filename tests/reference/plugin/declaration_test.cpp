@@ -61,6 +61,19 @@ TEST(Declaration, IsReadWhole) {
   EXPECT_EQ(s.means, "closer than 1 cm");
 }
 
+TEST(Declaration, NamesKeysThatResembleItsOwn) {
+  const auto sentence = [](const std::string& text) {
+    return test::sentence_of([&] { declaration_in(text); });
+  };
+  EXPECT_THAT(sentence(R"({"id": "m", "warmup": 3, "semantics":
+                           {"levels": ["body"], "questions": ["body"]}})"),
+              HasSubstr("warmup is not a known key; did you mean warm_up?"));
+  EXPECT_THAT(sentence_about(R"({"levels": ["near"], "questions": ["contacts"], "marign": 3})"),
+              HasSubstr("semantics.marign is not a known key; did you mean margin?"));
+  EXPECT_THAT(sentence(R"({"id": "m", "impacts": {"kinds": ["edge-edge"], "tolerence": 1}})"),
+              HasSubstr("impacts.tolerence is not a known key; did you mean tolerance?"));
+}
+
 TEST(Declaration, WarmUpHasALimitAndNeedsToBePreparedAgain) {
   const auto with = [](const std::string& keys) {
     return R"({"id": "m", "semantics": {"levels": ["body"], "questions": ["body"]}, )" + keys + "}";

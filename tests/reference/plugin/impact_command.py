@@ -39,6 +39,9 @@ ANSWERS = {
     "no-contact": {"message": "impact", "time": 0.5},
 }
 
+if FAULT == "warm":
+    CLAIMS["kinds"] = ["vertex-face", "edge-edge"]
+
 asked = 0
 for text in iter(sys.stdin.buffer.readline, b""):
     line = json.loads(text)
@@ -49,6 +52,8 @@ for text in iter(sys.stdin.buffer.readline, b""):
             hello["id"] = "exact"
         if FAULT == "frames-named-exact":
             write({**hello, "semantics": {"levels": ["body"], "questions": ["body"]}})
+        elif FAULT == "warm":
+            write({**hello, "impacts": CLAIMS, "prepares_again": True, "warm_up": 5})
         else:
             write({**hello, "impacts": CLAIMS})
     elif line["message"] == "prepare":
@@ -60,6 +65,9 @@ for text in iter(sys.stdin.buffer.readline, b""):
         if FAULT == "other-kinds":
             ready["impacts"] = {**CLAIMS, "kinds": ["edge-edge"]}
         write(ready)
+    elif FAULT == "warm":  # five of each kind come first
+        asked += 1
+        write({"message": "impact", "contact": asked > 10})
     else:
         assert line["message"] == "impact" and line["kind"] == "vertex-face" and line["bytes"] == 192
         asked += 1

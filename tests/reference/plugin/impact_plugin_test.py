@@ -102,6 +102,11 @@ def test_impossible_numbers_are_errors(way, fault, tmp_path):
     assert judged.row["score"]["hit"] == 3
 
 
+def test_a_command_is_warmed_up_by_other_queries(tmp_path):
+    score = Judged(tmp_path, "--detector-cmd", command("warm")).row["score"]
+    assert (score["hit"], score["spurious"], score["reported"]) == (3, 1, 4)
+
+
 @pytest.mark.parametrize("way", WAYS)
 def test_refused_query_is_neither_hit_nor_missed(way, tmp_path):
     judged = Judged(tmp_path, *words_of(way, "refuses"))

@@ -101,9 +101,9 @@ def hello():
         eat_memory()
     if FAULT == "nan-depth":
         line["semantics"] = DEPTHS
-    if FAULT in ("always-lies-again", "warms-up", "lies-when-kept"):
+    if FAULT in ("always-lies-again", "warms-up", "lies-when-kept", "fails-while-warm"):
         line["prepares_again"] = True
-    if FAULT == "warms-up":
+    if FAULT in ("warms-up", "fails-while-warm"):
         line["warm_up"] = 40
     if FAULT == "warms-up-once":
         line["warm_up"] = 40
@@ -212,6 +212,8 @@ def main():
         elif line["message"] == "frame":
             index = line["index"]
             WARM["frames"] += 1
+            if FAULT == "fails-while-warm" and WARM["frames"] == 8:
+                raise ValueError("seven were enough")
             if FAULT == "leaks":
                 LEAKED.append(b"x" * (1 << 24))
             if FAULT == "works-in-a-child":

@@ -134,6 +134,15 @@ def test_warm_up_is_on_bodies_of_its_own_before_those_of_the_scene(tmp_path):
     assert "warmed up by 40 frames of contactcheck's own before the scene's bodies" in notes
 
 
+def test_fault_in_the_warm_up_is_no_frames_fault(tmp_path):
+    run = TinyRun(tmp_path, ["--detector-cmd", command("fails-while-warm")])
+    message = run.row("misbehaving")["message"]
+    assert "in frame 7 of the warm-up: the command ended with exit code 1" in message
+    assert "ValueError: seven were enough" in message
+    assert "next:" not in run.outcome.out
+    assert "next:" not in TinyRun(tmp_path, ["--detector-cmd", command("fails-while-warm"), "--reduce"]).outcome.out
+
+
 def test_scale_may_follow_from_the_bodies(tmp_path):
     row = TinyRun(tmp_path, ["--detector-cmd", command("scale-later")]).row("misbehaving")
     assert row["status"] == "ok", row["message"]

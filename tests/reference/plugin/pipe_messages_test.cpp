@@ -178,6 +178,13 @@ TEST(PipeMessages, WordsAmongThemAreShownWithWhereTheyBelong) {
   EXPECT_THAT(sentence_about_line(R"({"message": "contacts")"), HasSubstr("not valid JSON"));
 }
 
+TEST(PipeMessages, OfImpactsNameKeysThatResembleTheirOwn) {
+  const Reply reply(R"({"message": "impact", "contact": true, "tiem": 0.5, "note": 1})", "mine",
+                    "impact");
+  EXPECT_THAT(test::sentence_of([&] { read_impact(reply); }),
+              testing::HasSubstr("tiem is not a known key; did you mean time?"));
+}
+
 TEST(PipeMessages, OfErrorsAreThrownAsSuch) {
   EXPECT_THROW(Reply(R"({"message": "error", "text": "lost"})", "command", "done"),
                std::runtime_error);

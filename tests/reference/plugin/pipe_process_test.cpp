@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -69,6 +70,42 @@ TEST(PipeProcess, LastWordsOfPythonSayWhere) {
   const std::string said = complaint([&] { process.receive_line(); });
   EXPECT_THAT(said, HasSubstr("IndexError: list index out of range (File \"<string>\", line 1, in "
                               "answer)"));
+}
+
+// As Node.js 20 prints it, which is not needed here.
+std::string last_words_of(const test::Scratch& scratch, const std::string& errors) {
+  PipeProcess process("cat " + text::in_shell(scratch.write("errors", errors).string()) +
+                      " >&2; exit 1");
+  const std::string said = complaint([&] { process.receive_line(); });
+  const std::string begin = "the command ended with exit code 1; its last words: ";
+  EXPECT_TRUE(said.starts_with(begin)) << said;
+  return said.substr(std::min(begin.size(), said.size()));
+}
+
+TEST(PipeProcess, LastWordsOfNodeAreItsErrorAndTheInnermostCall) {
+  const test::Scratch scratch;
+  const std::string version = "\n\nNode.js v20.20.2\n";
+  EXPECT_EQ(last_words_of(scratch,
+                          "file:///mine.mjs:7\n  throw new TypeError(\"oops\");\n  ^\n\n"
+                          "TypeError: oops\n    at update (file:///mine.mjs:7:9)\n"
+                          "    at file:///mine.mjs:9:1" +
+                              version),
+            "TypeError: oops (update (file:///mine.mjs:7:9))");
+  EXPECT_EQ(last_words_of(scratch,
+                          "node:internal/loader:1210\n  throw err;\n  ^\n\n"
+                          "Error: Cannot find module 'x'\n    at resolve (node:loader:1:2)"
+                          " {\n  code: 'MODULE_NOT_FOUND',\n  requireStack: []\n}" +
+                              version),
+            "Error: Cannot find module 'x' (resolve (node:loader:1:2))");
+  EXPECT_EQ(last_words_of(scratch,
+                          "[eval]:1\nthrow \"text\"\n^\ntext\n(Use `node --trace-uncaught "
+                          "...` to show where the exception was thrown)" +
+                              version),
+            "text");
+  EXPECT_EQ(last_words_of(scratch,
+                          "<--- GCs --->\n\nFATAL ERROR: heap limit\n----- stack -----\n"
+                          " 1: 0xb80 [node]\n"),
+            "FATAL ERROR: heap limit");
 }
 
 TEST(PipeProcess, SeesNoDescriptorsButItsThree) {

@@ -1,5 +1,6 @@
 """`contactcheck reduce` of the wrong answers of detectors from outside."""
 
+import json
 import shlex
 
 import pytest
@@ -42,6 +43,48 @@ def test_command_that_prepares_again_is_started_once(tmp_path):
     starts.unlink()
     assert_reduced(case, *command, "--budget", "60")
     assert len(starts.read_text(encoding="utf-8").splitlines()) == 3
+
+
+NEAR = """
+import array, json, sys
+def write(line, numbers=array.array("I")):
+    line["bytes"] = 4 * len(numbers)
+    sys.stdout.buffer.write(json.dumps(line).encode() + b"\\n" + numbers.tobytes())
+    sys.stdout.buffer.flush()
+for text in iter(sys.stdin.buffer.readline, b""):
+    line = json.loads(text)
+    data = sys.stdin.buffer.read(line.get("bytes", 0))
+    if line["message"] == "hello":
+        write({"message": "hello", "protocol": "contactcheck-pipe/1", "id": "near", "needs": ["vertices"],
+               "prepares_again": True, "semantics": {"levels": ["body"], "questions": ["body"]}})
+    elif line["message"] == "prepare":
+        counts = [body["vertices"] for body in line["bodies"]]
+        write({"message": "ready"})
+    elif line["message"] == "frame":
+        x = array.array("d", data)[::3]
+        a, b = x[:counts[0]], x[counts[0]:]
+        far = max(map(abs, x))
+        close = min(abs(p - q) for p in a for q in b) < 0.1 * far
+        write({"message": "done"})
+    else:
+        write({"message": "contacts", "bodies": int(close)}, array.array("I", [0, 1] if close else []))
+"""
+
+
+# It takes a tenth of the size for contact: two that are almost at one place would be wrong, too, but
+# for another reason.
+def test_what_is_spurious_stays_as_far_apart(tmp_path):
+    file = tmp_path / "near.py"
+    file.write_text(NEAR, encoding="utf-8")
+    command = ["--detector-cmd", f"python3 -B {shlex.quote(str(file))}"]
+    run = TinyRun(tmp_path, command)
+    case = next(d for d in run.results["disagreements"] if d["kind"] == "spurious")
+    successful("reduce", run.out / case["case"], *command)
+    least = json.loads((run.out / case["case"]).with_suffix(".min.json").read_text(encoding="utf-8"))
+    first, second = (body["mesh"]["vertices"] for body in least["bodies"])
+    places = [place for vertices in (first, second) for place in vertices]
+    size = max(max(p[k] for p in places) - min(p[k] for p in places) for k in range(3))
+    assert min(max(abs(p[k] - q[k]) for k in range(3)) for p in first for q in second) > 1e-4 * size
 
 
 def test_answer_that_depends_on_earlier_bodies_is_not_reduced(tmp_path):

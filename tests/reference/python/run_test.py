@@ -343,11 +343,11 @@ def test_no_fork_keeps_the_end_of_another_detector():
         def query(self, question):
             child = os.fork()
             if child == 0:
-                time.sleep(5)
+                time.sleep(30)
                 os._exit(0)
             raise ValueError("too late")
 
-    results = contactcheck.run(APPROACH, [Late()], timing=False, options=["--call-limit", "3"])
+    results = contactcheck.run(APPROACH, [Late()], timing=False, options=["--call-limit", "20"])
     assert "ValueError: too late" in row(results, "late")["message"]
 
 

@@ -62,6 +62,29 @@ TEST(FclObbrss, MissedTriangleHardBalls) {
 )");
 }
 
+TEST(PrintedTest, IsJavaScriptWithDecimals) {
+  const Finding finding{"triangle", "missed"};
+  const MinimalCase minimal = printed_case(finding);
+  const std::string test =
+      printed_test(minimal, answers_of(minimal, verdict(finding)), TestLanguage::kJavaScript);
+  EXPECT_THAT(test, testing::HasSubstr(R"(
+import assert from "node:assert/strict";
+import test from "node:test";
+
+test("test_fcl_obbrss_missed_triangle_hard_balls", () => {
+  const first_vertices = [
+      [0.0, 1.0, 2.0],
+      [-3.0, 0.5, 0.3333333333333333],
+      [0.0, 0.0, 0.0],
+  ];
+  const first_triangles = [
+      [0, 1, 2],
+  ];
+)"));
+  EXPECT_THAT(test, testing::EndsWith("  assert.ok(your_detector(first_vertices, first_triangles, "
+                                      "second_vertices, second_triangles, 0, 0));\n});\n"));
+}
+
 TEST(PrintedTest, IsPythonOrC) {
   const Finding finding{"triangle", "spurious"};
   const MinimalCase minimal = printed_case(finding);

@@ -123,7 +123,7 @@ TEST(SuiteRun, DetectorThatDiesInItsSecondPassHasNoTimesAndTheOthersKeepTheirs) 
   EXPECT_EQ(results.runs[0].times.at(0).passes, 3u);
   const results::Run& broken = results.runs[1];
   EXPECT_EQ(broken.status, results::Status::kError);
-  EXPECT_EQ(broken.message, "scene fake, frame 7, phase update: signal 6 (Aborted)");
+  EXPECT_EQ(broken.message, "scene fake, frame 7, phase update: signal 6 (Aborted) (while timed)");
   EXPECT_EQ(broken.failed_frame, 7u);
   EXPECT_TRUE(broken.times.empty());
   EXPECT_TRUE(broken.speedup.empty());

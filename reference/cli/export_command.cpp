@@ -54,7 +54,7 @@ std::vector<scene::SceneSource> sources_of(const ExportArguments& arguments) {
   suite::RunTargets drawing;
   drawing.frames = arguments.frames;
   for (const std::string& name : arguments.targets) {
-    if (name.starts_with("drawn-"))
+    if (name.starts_with("drawn-") && fs::path(name).extension().empty())
       if (const auto drawn = suite::find_drawn(name, drawing)) {
         sources.insert(sources.end(), drawn->scenes.begin(), drawn->scenes.end());
         continue;

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kProgressEvery = 20;  // candidates
 constexpr std::chrono::seconds kLogEvery{2};
-constexpr double kKeptGap = 0.25;  // of Finding::gap: numbers become simple, and the defect stays
+constexpr double kKeptGap = 0.25;  // of the first gap: numbers become simple, and the defect stays
 
 // From the command line only: a case file that names a program to start is not mere data.
 OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
@@ -148,13 +148,18 @@ class ReduceCommand {
   std::optional<reduce::Reduction> reduce_defect(const reduce::Defect& defect,
                                                  const reduce::CaseCandidate& whole) {
     const std::vector<Level> levels = reduce::levels_for(defect.finding.level, defect.task.self);
+    std::optional<double> first_gap;
     return reduce::reduce(
         whole, defect.task.pair,
         [&](const reduce::CaseCandidate& candidate) {
           show_progress(candidate);
           const reduce::ProbeVerdict verdict = probe_->ask(reduce::snapshot_of(candidate), levels);
-          return reduce::shows(verdict, defect.finding) &&
-                 keeps_position(candidate, verdict, defect);
+          if (!reduce::shows(verdict, defect.finding) ||
+              !keeps_position(candidate, verdict, defect))
+            return false;
+          const double gap = reduce::gap_of(candidate, verdict, defect.finding);
+          if (!first_gap) first_gap = gap;  // of the start, at the places of the scene
+          return gap >= kKeptGap * *first_gap;
         },
         arguments_.budget,
         defect.task.cells ? reduce::cell_candidates(defect.task.snapshot, *defect.task.cells)
@@ -175,9 +180,6 @@ class ReduceCommand {
 
   static bool keeps_position(const reduce::CaseCandidate& candidate,
                              const reduce::ProbeVerdict& verdict, const reduce::Defect& defect) {
-    if (defect.finding.gap > 0.0 &&
-        reduce::gap_of(candidate, verdict, defect.finding) < kKeptGap * defect.finding.gap)
-      return false;
     if (!defect.finding.general) return true;
     const ElementPair& pair = reduce::disagreement_of(verdict, defect.finding).pair;
     return reduce::in_general_position(candidate, {pair.body_a, pair.a}, {pair.body_b, pair.b});

@@ -56,6 +56,7 @@ std::string optional_line(const text::JsonField& object, const char* key) {
 
 // Names and words of options stand between ':', ',' and '=' in a detector's name.
 OptionInfo read_option(const text::JsonField& field) {
+  field.no_misspelt_keys({"name", "default", "help", "choices", "min", "max", "integer"});
   OptionInfo option;
   option.name = text::parse_id(field.at("name"));
   option.default_value = one_line(field.at("default"));

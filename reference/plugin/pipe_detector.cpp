@@ -77,10 +77,23 @@ class PipeObject {
   Declaration declaration_;
 };
 
+// What goes wrong here is no fault of the input that is judged.
+template <typename Frame>
+void warmed_up(std::uint32_t frames, Frame&& ask_about) {
+  for (std::uint32_t frame = 0; frame < frames; ++frame) try {
+      ask_about(frame);
+    } catch (const std::exception& e) {
+      throw std::runtime_error("in frame " + std::to_string(frame) + results::kOfWarmUp + ": " +
+                               e.what());
+    }
+}
+
 class PipeDetector : public Detector {
  public:
   PipeDetector(const std::string& command, const std::string& id, Options options)
-      : object_(command), options_(std::move(options)) {
+      : object_(command),
+        options_(std::move(options)),
+        before_bodies_(object_.declaration().semantics) {
     object_.require_id(id);
   }
 
@@ -132,9 +145,11 @@ class PipeDetector : public Detector {
   bool prepares_again() const override { return object_.declaration().prepares_again; }
 
  private:
-  // A scale, and a margin with it, may be taken from the bodies: then it declares anew.
+  // A scale, and a margin with it, may be taken from the bodies: then it declares anew. What it
+  // said of earlier bodies is not said of these.
   void give_bodies(const std::vector<Body>& bodies) {
     step_reader_.prepare(bodies);
+    object_.change_semantics(before_bodies_);
     object_.or_kill([&] {
       const Reply ready = object_.ask(prepare_message(bodies, options_), "ready");
       if (!ready.root().has("semantics")) return;
@@ -148,14 +163,10 @@ class PipeDetector : public Detector {
     const std::uint32_t frames = object_.declaration().warm_up;
     if (frames == 0) return;
     const WarmUpScene scene;
-    std::uint32_t frame = 0;
-    try {
-      give_bodies(scene.bodies());
-      for (; frame < frames; ++frame) warm_up(scene, frame);
-    } catch (const std::exception& e) {
-      throw std::runtime_error("in frame " + std::to_string(frame) + results::kOfWarmUp + ": " +
-                               e.what());
-    }
+    warmed_up(frames, [&](std::uint32_t frame) {
+      if (frame == 0) give_bodies(scene.bodies());
+      warm_up(scene, frame);
+    });
   }
 
   // Its answers are read, so that one that cannot be is an error, and forgotten.
@@ -177,6 +188,7 @@ class PipeDetector : public Detector {
 
   PipeObject object_;
   Options options_;
+  Semantics before_bodies_;  ///< as it said hello
   std::vector<Question> expected_;
   bool warm_ = false;
   StepAnswerReader step_reader_;
@@ -219,9 +231,12 @@ class PipeImpacts final : public ImpactDetector {
     const std::uint32_t frames = object_.declaration().warm_up;
     if (frames == 0) return;
     const WarmUpScene scene;
-    for (std::uint32_t i = 0; i < frames; ++i)
-      for (const ImpactKind kind : object_.declaration().impacts->kinds)
-        query(scene.query(i, kind));
+    warmed_up(frames, [&](std::uint32_t frame) {
+      for (const ImpactKind kind : object_.declaration().impacts->kinds) try {
+          query(scene.query(frame, kind));
+        } catch (const RefusedInput&) {  // that query alone
+        }
+    });
   }
 
   PipeObject object_;

@@ -135,6 +135,8 @@ Reply::Reply(const std::string& line, std::string from, const char* message)
   const std::string kind = root().at("message").text();
   if (kind != "error" && kind != "refused") {
     if (kind != message) root().at("message").refuse("\"" + std::string(message) + "\"");
+    if (kind == "done" || kind == "ready")
+      root().no_misspelt_keys({"message", "bytes", "ms", "semantics", "impacts"});
     return;
   }
   const std::string text = root().at("text").text();
@@ -217,6 +219,12 @@ class Reader {
 }  // namespace
 
 void check_contact_counts(const Reply& reply) {
+  static const std::vector<std::string> kKeys = [] {  // this is timed
+    std::vector<std::string> keys = {"message", "bytes", "ms"};
+    for (const List& list : kLists) keys.emplace_back(list.key);
+    return keys;
+  }();
+  reply.root().no_misspelt_keys(kKeys);
   std::size_t sum = 0;
   for (const List& list : kLists) sum += count_of(reply, list) * list.record;
   if (sum != reply.bytes())

@@ -40,9 +40,10 @@ WarmUpScene::WarmUpScene()
 
 Frame WarmUpScene::frame(std::size_t number) const {
   Frame out;
-  out.index = number % kPoses;
-  out.time = static_cast<double>(out.index);
-  for (const BodyPose& body : poses_[out.index]) out.bodies.push_back({body.nodes, body.vertices});
+  out.index = number;
+  out.time = static_cast<double>(number);
+  for (const BodyPose& body : poses_[number % kPoses])
+    out.bodies.push_back({body.nodes, body.vertices});
   return out;
 }
 

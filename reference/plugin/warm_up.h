@@ -24,7 +24,7 @@ class WarmUpScene {
   WarmUpScene& operator=(const WarmUpScene&) = delete;
 
   const std::vector<Body>& bodies() const { return bodies_; }
-  /// Pose `number` modulo kPoses, with nodes and vertices; as long as this lives.
+  /// Pose `number` modulo kPoses, at that second, with nodes and vertices; as long as this lives.
   Frame frame(std::size_t number) const;
   /// From that pose to the next.
   Step step(std::size_t number) const { return {frame(number), frame(number + 1)}; }

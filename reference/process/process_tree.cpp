@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 namespace contactcheck::process {
@@ -41,6 +42,14 @@ std::uint64_t resident_bytes(pid_t process) {
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
+// A zombie has a group and a name until it is waited for. True of one that is gone.
+bool has_ended(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t state = text.rfind(')') + 2;  // behind a name in brackets
+  return state >= text.size() || text[state] == 'Z' || text[state] == 'X';
+}
+
 std::vector<pid_t> children_of_this_process() {
   std::vector<pid_t> out;
   add_children(getpid(), out);
@@ -56,14 +65,14 @@ std::vector<pid_t> process_tree(pid_t root) {
   return tree;
 }
 
-std::string descendant_outside_groups() {
-  std::vector<pid_t> groups = {getpgrp()};
-  for (const pid_t child : children_of_this_process()) groups.push_back(getpgid(child));
-  for (const pid_t process : process_tree(getpid())) {
-    const pid_t group = getpgid(process);
-    if (group < 0 || std::ranges::find(groups, group) != groups.end()) continue;
-    std::ifstream file("/proc/" + std::to_string(process) + "/comm");
-    if (std::string name; std::getline(file, name)) return name;
+std::string descendant_outside_its_group() {
+  for (const pid_t leader : children_of_this_process()) {
+    if (getpgid(leader) != leader) continue;
+    for (const pid_t process : process_tree(leader)) {
+      if (getpgid(process) == leader || has_ended(process)) continue;
+      std::ifstream file("/proc/" + std::to_string(process) + "/comm");
+      if (std::string name; std::getline(file, name)) return name;
+    }
   }
   return "";
 }

@@ -13,9 +13,9 @@ namespace contactcheck::process {
 /// count as its descendants).
 std::vector<pid_t> process_tree(pid_t root);
 
-/// The name of a descendant of this process that is neither in its process group nor in that of one
-/// of its children, so that no signal to these groups reaches it; "" where there is none.
-std::string descendant_outside_groups();
+/// The name of a running process that a child of this one has started, which leads a process group,
+/// and that has left this group: no signal to it reaches it. "" where there is none.
+std::string descendant_outside_its_group();
 
 /// The resident memory of a process and its descendants, bytes; shared pages count once for each.
 std::uint64_t resident_bytes_of_tree(pid_t root);

@@ -140,18 +140,17 @@ std::vector<int> dimensions_of(const CaseCandidate& candidate) {
   return out;
 }
 
-double relative_gap(const CaseCandidate& candidate, std::size_t first, std::size_t second) {
+double relative_gap(const TriangleMesh& first, const TriangleMesh& second) {
   CaseCandidate pair;
-  Aabb box;
-  for (const std::size_t mesh : {first, second}) {
-    pair.names.push_back(candidate.names[mesh]);
-    pair.meshes.push_back(candidate.meshes[mesh]);
-    for (const Vec3& vertex : candidate.meshes[mesh].vertices) box.extend(vertex);
-  }
+  pair.names = {"first", "second"};
+  pair.meshes = {first, second};
   const Snapshot snapshot = snapshot_of(pair);
+  Aabb box;
   Frame frame;
-  for (const std::vector<Vec3>& vertices : snapshot.nodes)
+  for (const std::vector<Vec3>& vertices : snapshot.nodes) {
+    for (const Vec3& vertex : vertices) box.extend(vertex);
     frame.bodies.push_back({vertices, vertices});
+  }
   const double gap = oracle::Oracle(snapshot.bodies).distance(frame, {0, 1}).lower;
   return gap > 0.0 ? gap / box.extent().maxCoeff() : 0.0;
 }

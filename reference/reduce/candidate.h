@@ -83,9 +83,9 @@ CaseCandidate without_mesh(CaseCandidate candidate, std::size_t mesh);
 /// Ids of two triangles, of the meshes CaseCandidate::sides.
 using TrianglePair = std::array<std::uint32_t, 2>;
 
-/// The distance of the two meshes over the largest side of the box round both: how far apart they
-/// are, whatever their scale. 0 where they touch. Of two triangles: with_pieces() of these first.
-double relative_gap(const CaseCandidate& candidate, std::size_t first, std::size_t second);
+/// The distance of two meshes over the largest side of the box round both: how far apart they are,
+/// whatever their scale. 0 where they touch. @pre each has a triangle, and uses all its vertices
+double relative_gap(const TriangleMesh& first, const TriangleMesh& second);
 
 /// True when no corner of either triangle lies in the plane of the other (and both have one): then
 /// a contact of them is a crossing that a small move of any corner does not end. Exact.

@@ -214,14 +214,15 @@ double gap_of(const CaseCandidate& candidate, const ProbeVerdict& verdict, const
   const ElementPair& pair = disagreement_of(verdict, finding).pair;
   if (pair.body_a == pair.body_b) return 0.0;
   if (finding.level == name_of(Level::kBody))
-    return relative_gap(candidate, pair.body_a, pair.body_b);
+    return relative_gap(candidate.meshes[pair.body_a], candidate.meshes[pair.body_b]);
   if (finding.level != name_of(Level::kTriangle)) return 0.0;
-  CaseCandidate two = candidate;
-  for (const auto& [mesh, triangle] : {Piece{pair.body_a, pair.a}, Piece{pair.body_b, pair.b}}) {
-    two.meshes[mesh].triangles = {candidate.meshes[mesh].triangles[triangle]};
-    drop_unused_vertices(two.meshes[mesh]);
-  }
-  return relative_gap(two, pair.body_a, pair.body_b);
+  const auto alone = [&](std::uint32_t mesh, std::uint32_t triangle) {
+    TriangleMesh out = candidate.meshes[mesh];
+    out.triangles = {out.triangles[triangle]};
+    drop_unused_vertices(out);
+    return out;
+  };
+  return relative_gap(alone(pair.body_a, pair.a), alone(pair.body_b, pair.b));
 }
 
 Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
@@ -253,7 +254,6 @@ Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
   require_reducible(finding.level);
   const Snapshot whole = task.snapshot;
   const std::size_t count = whole.bodies.size();
-  if (finding.kind != "error") finding.gap = gap_of(candidate_of(whole), verdict, finding);
   const auto shows_with = [&](const std::set<std::size_t>& bodies) {
     if (bodies.size() < 2 && !task.self) return false;
     return shows(probe.ask(only(whole, bodies), levels_for(finding.level, task.self)), finding);

@@ -80,7 +80,9 @@ bool can_be_reduced(const std::string& level);
 /// @throws InputError when errors at that level cannot be reduced
 void require_reducible(const std::string& level);
 
-/// How far apart what `verdict` on `candidate` reports is (Finding::gap). @pre it shows `finding`
+/// How far apart the first spurious pair of two bodies or triangles is (relative_gap); 0 for other
+/// findings. What is nearer by far may be reported for another reason, rounding for one.
+/// @pre `verdict`, which is on `candidate`, shows `finding`
 double gap_of(const CaseCandidate& candidate, const ProbeVerdict& verdict, const Finding& finding);
 
 /// Finds the first frame in which the detector (by canonical name) has the wanted error. `is_case`:

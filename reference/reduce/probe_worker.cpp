@@ -111,7 +111,11 @@ int run_probe_worker(const std::string& detector, const DetectorCatalog& catalog
       if (!judged.refused.empty()) throw RefusedInput(judged.refused);
       judge::JudgingTools tools(judged);
       if (!channel.send("")) break;
-      const ProbeVerdict verdict = verdict_on(tools, catalog, spec, progress, kept);
+      const bool anew = !kept;
+      ProbeVerdict verdict = verdict_on(tools, catalog, spec, progress, kept);
+      // Earlier bodies may be what it failed of.
+      if (!anew && verdict.status == results::Status::kError)
+        verdict = verdict_on(tools, catalog, spec, progress, kept);
       surroundings.restore();
       if (!channel.send(to_text(verdict))) break;
     }

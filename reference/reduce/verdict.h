@@ -39,9 +39,6 @@ struct Finding {
   /// Its triangles are in general position (in_general_position): so must those be that show it
   /// in a smaller case. A verdict alone does not show it; find_defect sets it from the frame.
   bool general = false;
-  /// Of a spurious contact of two bodies or triangles, how far apart they are (relative_gap): what
-  /// is nearer by far may be reported for another reason, rounding for one. 0: unknown.
-  double gap = 0.0;
 };
 
 /// "missed at level triangle", "error: signal 11 (Segmentation fault)"

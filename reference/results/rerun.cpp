@@ -80,7 +80,8 @@ std::string out_folder(const Results& results) {
 bool failed_in_a_frame(const Run& row) {
   return row.status == Status::kError && row.failed_frame && !row.recording.empty() &&
          !any_impact(row.semantics.levels) && !row.message.ends_with(kWhileTimed) &&
-         row.message.find(kOfWarmUp) == std::string::npos;
+         (row.message.find("phase prepare: in frame ") == std::string::npos ||
+          row.message.find(kOfWarmUp) == std::string::npos);
 }
 
 }  // namespace contactcheck::results

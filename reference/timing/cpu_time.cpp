@@ -113,7 +113,7 @@ CpuBook::Reading CpuBook::read(bool calls_next) const {
   if (calls_next) out.at = Clock::now();
   if (children_ && calls_next) {
     out.children = of_children();
-    if (has_children()) out.stray = process::descendant_outside_groups();
+    if (has_children()) out.stray = process::descendant_outside_its_group();
   }
   out.thread_first = nanoseconds_of(CLOCK_THREAD_CPUTIME_ID);
   out.process = nanoseconds_of(CLOCK_PROCESS_CPUTIME_ID);

@@ -50,7 +50,7 @@ class CpuBook {
   };
 
   /// `threads`: that the detector may use. `children`: count the processes that this one has
-  /// started too, at some 100 us a call where there are any.
+  /// started too, at some 300 us a call where there are any.
   CpuBook(std::size_t threads, bool children) : threads_(threads), children_(children) {}
 
   void before_call() { before_call(read(true)); }

@@ -66,6 +66,7 @@ std::vector<Runner> make_runners(const scene::Scene& scene, std::vector<Lockstep
     Runner& runner = runners.emplace_back(Runner{&entry, nullptr});
     runner.guarded(
         [&] { runner.driven = std::make_unique<scene::DrivenSimulation>(scene, *entry.detector); });
+    entry.detector->pause();
   }
   return runners;
 }

@@ -118,6 +118,7 @@ Pass time_pass(const scene::Scene& scene, const PassRequest& request, Detector& 
   Pass out;
   CpuBook cpu(request.threads, request.children);
   const process::FloatEnvironmentGuard guard;
+  detector.pause();  // what it began while it was prepared goes on within a call
   for (const std::size_t index : request.frames) {
     input.point_to(index);
     progress.enter(request.position, index, process::Phase::kMap);

@@ -214,7 +214,7 @@ def wrong_scene(scene, tables, runs):
             wanted["body m/s"] = f"{body['missed']}/{body['spurious']}"
         if row["level"] != run["per_frame"]["level"]:
             yield f"report, {scene} {row['detector']}: {row['level']} is not the finest level"
-        times = times_of(run).get(row["question"])
+        times = times_of(run).get(row.get("question"))
         if times:
             wanted["ms/frame"] = three_digits(times["playback"]["frame"])
             wanted["passes"] = str(times["passes"])

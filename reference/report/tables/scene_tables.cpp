@@ -146,7 +146,7 @@ TitledTable result_table(const RunList& runs) {
 }
 
 // Every level of every detector: against the truth of the doubles and, for single precision,
-// against the truth of the values fed.
+// against the truth of the rounded values.
 TitledTable levels_table(const RunList& runs) {
   TitledTable out{
       "Every level judged (sums over frames)",

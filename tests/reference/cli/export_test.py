@@ -92,6 +92,9 @@ def test_of_a_suite_is_a_folder_per_scene(tmp_path):
 def test_of_one_drawn_scene_has_its_frames(tmp_path):
     exported(tmp_path / "out", "drawn-3-6")
     assert len(frames_in(tmp_path / "out" / "drawn-3-6")) > 2
+    successful("run", "drawn-3-6", "--no-timing", "--detector", "fcl-aabb", "--quiet", "--out", tmp_path / "run")
+    again = successful("export", "drawn-3-6.ccr", "--out", tmp_path / "again", cwd=tmp_path / "run" / "recordings")
+    assert "drawn-3-6" in again.out
     refused("export", "drawn-3-6", "--frames", "2", "--out", tmp_path / "out",
             named=["--frames", "drawn with their frames"], folder=tmp_path)
 

@@ -85,7 +85,7 @@ def hello():
         OUT.flush()
     if FAULT == "version-2":
         line["protocol"] = "contactcheck-pipe/2"
-    if FAULT == "scale-later":
+    if FAULT in ("scale-later", "scale-of-the-warm-up"):
         line["semantics"] = dict(HELLO["semantics"], precision="single")
     if FAULT == "bad-id":
         line["id"] = "a:b"
@@ -101,9 +101,9 @@ def hello():
         eat_memory()
     if FAULT == "nan-depth":
         line["semantics"] = DEPTHS
-    if FAULT in ("always-lies-again", "warms-up", "lies-when-kept", "fails-while-warm"):
+    if FAULT in ("always-lies-again", "warms-up", "lies-when-kept", "fails-while-warm", "scale-of-the-warm-up"):
         line["prepares_again"] = True
-    if FAULT in ("warms-up", "fails-while-warm"):
+    if FAULT in ("warms-up", "fails-while-warm", "scale-of-the-warm-up"):
         line["warm_up"] = 40
     if FAULT == "warms-up-once":
         line["warm_up"] = 40
@@ -157,11 +157,11 @@ def ready(bodies):
     if FAULT == "warms-up" and WARM["triangles"] > 0:
         sys.stderr.write("%d frames of %d triangles\n" % (WARM["frames"], WARM["triangles"]))
         sys.stderr.flush()
-    WARM["triangles"] = sum(body["triangles"] for body in bodies)
     if FAULT == "exact-later":
         line["semantics"] = dict(HELLO["semantics"], exact=True)
-    if FAULT == "scale-later":
+    if FAULT == "scale-later" or (FAULT == "scale-of-the-warm-up" and WARM["triangles"] == 0):
         line["semantics"] = dict(HELLO["semantics"], precision="single", scale=2)
+    WARM["triangles"] = sum(body["triangles"] for body in bodies)
     write(line)
 
 

@@ -185,6 +185,17 @@ TEST(PipeMessages, OfImpactsNameKeysThatResembleTheirOwn) {
               testing::HasSubstr("tiem is not a known key; did you mean time?"));
 }
 
+TEST(PipeMessages, NameKeysThatResembleTheirOwn) {
+  EXPECT_THAT(
+      test::sentence_of([&] {
+        check_contact_counts(Reply(R"({"message": "contacts", "bodeis": 1})", "mine", "contacts"));
+      }),
+      testing::HasSubstr("bodeis is not a known key; did you mean bodies?"));
+  EXPECT_THAT(
+      test::sentence_of([&] { Reply(R"({"message": "ready", "semantic": {}})", "mine", "ready"); }),
+      testing::HasSubstr("semantic is not a known key; did you mean semantics?"));
+}
+
 TEST(PipeMessages, OfErrorsAreThrownAsSuch) {
   EXPECT_THROW(Reply(R"({"message": "error", "text": "lost"})", "command", "done"),
                std::runtime_error);

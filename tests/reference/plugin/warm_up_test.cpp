@@ -30,6 +30,7 @@ TEST(WarmUpScene, HasPosesThatDifferAndGoRound) {
     const Step step = scene.step(i);
     EXPECT_NE(step.start.bodies[1].vertices[0], step.end.bodies[1].vertices[0]) << i;
     EXPECT_NE(step.start.bodies[0].nodes[0], step.end.bodies[0].nodes[0]) << i;
+    EXPECT_LT(step.start.time, step.end.time) << i;
   }
   EXPECT_EQ(scene.frame(WarmUpScene::kPoses).bodies[0].nodes.data(),
             scene.frame(0).bodies[0].nodes.data());

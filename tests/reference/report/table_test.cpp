@@ -35,6 +35,7 @@ TEST(Table, WithoutTimesLeavesOutWhatIsAboutThem) {
   leave_out_untimed(table);
   EXPECT_THAT(titles_of(table), ElementsAre("detector", "missed"));
   EXPECT_THAT(table.rows[0], ElementsAre("a", "0"));
+  EXPECT_THAT(table.rows[1], ElementsAre("b", ""));
 }
 
 }  // namespace

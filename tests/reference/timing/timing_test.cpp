@@ -376,18 +376,23 @@ TEST(CpuBook, ComplainsOfWorkBetweenCallsAndAfterTheLast) {
 // A child that leads a group, as a command does, and has a child of its own that stays in it or
 // not.
 TEST(CpuBook, ComplainsOfAProcessThatNoPauseReaches) {
-  for (const bool leaves : {false, true}) {
+  enum { kStays, kLeaves, kLeftAndEnded };
+  for (const int what : {kStays, kLeaves, kLeftAndEnded}) {
     int ready[2];
     ASSERT_EQ(pipe(ready), 0);
     const pid_t child = fork();
     if (child == 0) {
       setpgid(0, 0);
       if (fork() == 0) {
-        if (leaves) setsid();
+        if (what != kStays) setsid();
+        if (what == kLeftAndEnded) _exit(0);  // nobody waits for it
         write(ready[1], "x", 1);
         sleep(300);
         _exit(0);
       }
+      siginfo_t ended;
+      if (what == kLeftAndEnded && waitid(P_ALL, 0, &ended, WEXITED | WNOWAIT) == 0)
+        write(ready[1], "x", 1);
       sleep(300);
       _exit(0);
     }
@@ -399,7 +404,7 @@ TEST(CpuBook, ComplainsOfAProcessThatNoPauseReaches) {
     process::kill_tree(child);
     waitpid(child, nullptr, 0);
     for (const int end : ready) close(end);
-    if (leaves) {
+    if (what == kLeaves) {
       EXPECT_THAT(book.complaint(),
                   testing::HasSubstr("has left the process group of its command"));
     } else {

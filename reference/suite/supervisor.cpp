@@ -58,9 +58,7 @@ class Watch {
     const double limit = seconds_allowed();
     if (seconds_without_step() > limit)
       return "no progress for " + short_text(limit) + " s (time limit of one call)";
-    // What sweeps the caches is ours.
-    const std::uint64_t own = settings_.timing ? timing::sweep_bytes() : 0;
-    if (worker.resident_bytes() > settings_.memory_limit + own)
+    if (worker.resident_bytes() > settings_.memory_limit + own_bytes_)
       return "more than " + std::to_string(settings_.memory_limit >> 20) +
              " MiB resident (memory limit)";
     if (worker.output_bytes() > process::kWorkerOutputLimit)
@@ -90,6 +88,7 @@ class Watch {
 
   const process::SharedProgress& progress_;
   const RunSettings& settings_;
+  const std::uint64_t own_bytes_ = settings_.timing ? timing::sweep_bytes() : 0;  // for the caches
   std::uint64_t last_ticks_ = 0;
   Clock::time_point last_change_ = Clock::now();
 };

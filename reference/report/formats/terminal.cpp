@@ -27,9 +27,6 @@ constexpr std::size_t kStatus = 1, kMessage = 2;
 constexpr std::size_t kWidest = 100;  // characters of a line
 constexpr std::ptrdiff_t kFewestJoined = 3;
 
-// A run that is not `ok` has a message where others have a row of figures.
-bool is_message(const Line& line) { return line.back().empty(); }
-
 std::vector<std::size_t> widths_of(const std::vector<Column>& columns,
                                    const std::vector<Line>& lines) {
   std::vector<std::size_t> widths;

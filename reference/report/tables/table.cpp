@@ -15,7 +15,8 @@ void ColumnMeanings::add(const std::vector<Column>& columns) {
 void erase_column(std::size_t i, TitledTable& table) {
   const auto at = static_cast<std::ptrdiff_t>(i);
   table.columns.erase(table.columns.begin() + at);
-  for (std::vector<std::string>& row : table.rows) row.erase(row.begin() + at);
+  for (std::vector<std::string>& row : table.rows)
+    row.erase(is_message(row) ? row.end() - 1 : row.begin() + at);
 }
 
 void leave_out_untimed(TitledTable& table) {

@@ -43,7 +43,10 @@ class ColumnMeanings {
   std::vector<Column> all_;
 };
 
-/// Also from rows that have a message in place of figures.
+/// True for a row that has a message where others have figures: its last cells are empty.
+inline bool is_message(const std::vector<std::string>& row) { return row.back().empty(); }
+
+/// A row with a message keeps it, and loses an empty cell. @pre more columns than a message takes
 void erase_column(std::size_t i, TitledTable& table);
 
 /// Leaves out the columns of times, and those about times, if no row has any.

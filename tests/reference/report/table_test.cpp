@@ -30,12 +30,20 @@ TEST(Table, KeepsItsColumnsWhereARowHasATime) {
   EXPECT_THAT(titles_of(table), ElementsAre("detector", "question", "ms", "vs fcl", "missed"));
 }
 
+TEST(Table, ErasesNoMessage) {
+  TitledTable table = times("0.5", "2x");
+  table.rows[1] = {"b", "error", "it died", "", ""};
+  erase_column(2, table);
+  EXPECT_THAT(table.rows[0], ElementsAre("a", "body", "2x", "0"));
+  EXPECT_THAT(table.rows[1], ElementsAre("b", "error", "it died", ""));
+}
+
 TEST(Table, WithoutTimesLeavesOutWhatIsAboutThem) {
   TitledTable table = times("-", "-");
   leave_out_untimed(table);
   EXPECT_THAT(titles_of(table), ElementsAre("detector", "missed"));
   EXPECT_THAT(table.rows[0], ElementsAre("a", "0"));
-  EXPECT_THAT(table.rows[1], ElementsAre("b", ""));
+  EXPECT_THAT(table.rows[1], ElementsAre("b", "error"));
 }
 
 }  // namespace
